@@ -1,0 +1,29 @@
+# One interface target carries every flag; targets opt in by linking it.
+add_library(plumb_strict INTERFACE)
+target_compile_features(plumb_strict INTERFACE cxx_std_20)
+target_include_directories(plumb_strict INTERFACE ${PROJECT_SOURCE_DIR})
+# No errno and no trapping maths: both only keep loops from vectorising. Never -ffast-math: sums keep
+# their order, so the same input gives the same bits; contraction is off for the same reason.
+target_compile_options(plumb_strict INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
+  -fno-math-errno -fno-trapping-math -ffp-contract=off
+  $<$<CONFIG:Debug>:-DEIGEN_INITIALIZE_MATRICES_BY_NAN>
+  $<$<BOOL:${PLUMB_SANITIZE}>:-fsanitize=address,undefined -fno-sanitize=vptr -fno-omit-frame-pointer>)
+target_link_options(plumb_strict INTERFACE
+  $<$<BOOL:${PLUMB_SANITIZE}>:-fsanitize=address,undefined -fno-sanitize=vptr>)
+
+if(PLUMB_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-march=${PLUMB_ARCH})
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+# plumb_program(name sources... LIBS libs...): a program in bin/, named as given, installed.
+function(plumb_program name)
+  cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
+  add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
+  target_link_libraries(${name} PRIVATE plumb_strict ${ARG_LIBS})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

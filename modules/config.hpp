@@ -1,0 +1,20 @@
+/// All settings of all processes: one file serves them all, and a key that none of them owns is an error.
+#pragma once
+
+#include "modules/ground/ground_config.hpp"
+#include "modules/vo/vo_config.hpp"
+
+namespace plumb {
+
+struct PlumbConfig {
+  VoConfig vo;
+  GroundConfig ground;
+
+  template <typename Config, typename Visit>
+  static void visit(Config& c, Visit&& field) {
+    VoConfig::visit(c.vo, field);
+    GroundConfig::visit(c.ground, field);
+  }
+};
+
+}  // namespace plumb

@@ -1,0 +1,47 @@
+/// Pinhole camera with the radial term that rectification left behind.
+///
+/// Frames  cam: x right, y down, z forward.  img: u right, v down, (0,0) is the centre of the upper left pixel.
+/// Model   r2 = x^2 + y^2 with (x, y) = (X/Z, Y/Z);  u = fx x (1 + k1 r2) + cx,  v = fy y (1 + k1 r2) + cy.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plumb {
+
+struct CameraModel {
+  int width_px = 0;
+  int height_px = 0;
+  double fx_px = 0.0;
+  double fy_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  double residual_k1 = 0.0;      ///< [-] radial term left in "rectified" images
+  double camera_height_m = 0.0;  ///< optical centre above the road; 0 when the rig does not say
+
+  /// Pixel of a point in cam. @pre p_cam.z() > 0
+  [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_cam) const {
+    return from_normalized(p_cam.head<2>() / p_cam.z());
+  }
+
+  /// Pixel of undistorted normalised coordinates (X/Z, Y/Z).
+  [[nodiscard]] Eigen::Vector2d from_normalized(const Eigen::Vector2d& xy) const {
+    const double s = 1.0 + residual_k1 * xy.squaredNorm();
+    return {fx_px * xy.x() * s + cx_px, fy_px * xy.y() * s + cy_px};
+  }
+
+  /// Undistorted normalised coordinates (X/Z, Y/Z) of a pixel; fixed-point inverse, 1e-9 for |k1| < 0.05.
+  [[nodiscard]] Eigen::Vector2d to_normalized(const Eigen::Vector2d& px) const {
+    const Eigen::Vector2d distorted((px.x() - cx_px) / fx_px, (px.y() - cy_px) / fy_px);
+    Eigen::Vector2d xy = distorted;
+    for (int i = 0; i < 8; ++i) xy = distorted / (1.0 + residual_k1 * xy.squaredNorm());
+    return xy;
+  }
+
+  /// Ray with z = 1 through a pixel.
+  [[nodiscard]] Eigen::Vector3d unproject(const Eigen::Vector2d& px) const {
+    return to_normalized(px).homogeneous();
+  }
+};
+
+}  // namespace plumb

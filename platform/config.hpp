@@ -1,0 +1,75 @@
+/// Strict TOML configuration: every key is owned by exactly one visit(); what is wrong is refused, never repaired.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace plumb {
+
+/// What is wrong with a configuration, with file, line, key and allowed range. Programs print it and exit with 2.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A parsed TOML file and the keys that were read from it.
+class ConfigFile {
+ public:
+  /// Reads and parses. Throws ConfigError ("cannot read F", "F:line:column: ...").
+  static ConfigFile load(const std::string& path);
+  ~ConfigFile();
+  ConfigFile(ConfigFile&&) noexcept;
+
+  /// The value of a dotted key replaces `value` when the file has it. Throws ConfigError on the wrong type or range.
+  void read(const char* key, double& value, double low, double high);
+  void read(const char* key, int& value, double low, double high);
+  void read(const char* key, bool& value);
+  void read(const char* key, std::string& value);
+  /// `value` must be one of `choices`.
+  void read(const char* key, std::string& value, const std::vector<std::string>& choices);
+
+  /// Throws ConfigError for the first key that nobody read, with its line.
+  void refuse_unread() const;
+
+ private:
+  ConfigFile();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Field visitor: field(key, member, low, high, meaning) for numbers, field(key, member, meaning) for bool and
+/// text, field(key, member, choices, meaning) for a text out of a list.
+class ConfigReader {
+ public:
+  explicit ConfigReader(ConfigFile* file) : file_(file) {}
+  template <typename T, typename L, typename H>
+    requires std::is_arithmetic_v<L>
+  void operator()(const char* key, T& value, L low, H high, const char* /*meaning*/) {
+    file_->read(key, value, static_cast<double>(low), static_cast<double>(high));
+  }
+  template <typename T>
+  void operator()(const char* key, T& value, const char* /*meaning*/) {
+    file_->read(key, value);
+  }
+  void operator()(const char* key, std::string& value, const std::vector<std::string>& choices,
+                  const char* /*meaning*/) {
+    file_->read(key, value, choices);
+  }
+
+ private:
+  ConfigFile* file_;
+};
+
+/// Fills `config` from `path`; an empty path leaves the defaults. Throws ConfigError.
+template <typename Config>
+void load_config(const std::string& path, Config* config) {
+  if (path.empty()) return;
+  ConfigFile file = ConfigFile::load(path);
+  Config::visit(*config, ConfigReader(&file));
+  file.refuse_unread();
+}
+
+}  // namespace plumb
