@@ -1,7 +1,8 @@
 /// Pinhole camera with the radial term that rectification left behind.
 ///
-/// Frames  cam: x right, y down, z forward.  img: u right, v down, (0,0) is the centre of the upper left pixel.
-/// Model   r2 = x^2 + y^2 with (x, y) = (X/Z, Y/Z);  u = fx x (1 + k1 r2) + cx,  v = fy y (1 + k1 r2) + cy.
+/// Frames  cam: x right, y down, z forward.  img: u right, v down, (0,0) is the centre of the upper
+/// left pixel. Model   r2 = x^2 + y^2 with (x, y) = (X/Z, Y/Z);  u = fx x (1 + k1 r2) + cx,  v = fy
+/// y (1 + k1 r2) + cy.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +31,8 @@ struct CameraModel {
     return {fx_px * xy.x() * s + cx_px, fy_px * xy.y() * s + cy_px};
   }
 
-  /// Undistorted normalised coordinates (X/Z, Y/Z) of a pixel; fixed-point inverse, 1e-9 for |k1| < 0.05.
+  /// Undistorted normalised coordinates (X/Z, Y/Z) of a pixel; fixed-point inverse, 1e-9 for |k1| <
+  /// 0.05.
   [[nodiscard]] Eigen::Vector2d to_normalized(const Eigen::Vector2d& px) const {
     const Eigen::Vector2d distorted((px.x() - cx_px) / fx_px, (px.y() - cy_px) / fy_px);
     Eigen::Vector2d xy = distorted;

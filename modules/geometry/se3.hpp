@@ -1,8 +1,8 @@
 /// Rigid motions and rotations.
 ///
-/// T_a_b maps coordinates in b to coordinates in a: p_a = T_a_b * p_b.  R_a_b its rotation, t_a_b the origin
-/// of b in a. Tangent vectors are (translation, rotation); rotations are perturbed on the right,
-/// R <- R exp(w^), unless a function says otherwise.
+/// T_a_b maps coordinates in b to coordinates in a: p_a = T_a_b * p_b.  R_a_b its rotation, t_a_b
+/// the origin of b in a. Tangent vectors are (translation, rotation); rotations are perturbed on
+/// the right, R <- R exp(w^), unless a function says otherwise.
 #pragma once
 
 #include <Eigen/Core>

@@ -6,7 +6,8 @@ namespace plumb {
 class StageProbe {
  public:
   virtual ~StageProbe() = default;
-  /// The stage `name` (a string literal) has just ended; it began at the previous mark or at `begin`.
+  /// The stage `name` (a string literal) has just ended; it began at the previous mark or at
+  /// `begin`.
   virtual void mark(const char* name) = 0;
   /// A frame begins.
   virtual void begin() = 0;

@@ -1,9 +1,12 @@
 /// Ground plane, scale and metric ego-motion from VO motion, road points and the images themselves.
 ///
-/// Pure algorithm: no clock, no I/O, no heap after construction. `main.cpp` is the process around it.
+/// Pure algorithm: no clock, no I/O, no heap after construction. `main.cpp` is the process around
+/// it.
 ///
-/// Frames   cam: x right, y down, z forward.  ground: x forward, y left, z up, on the road under the camera.
-///          world: cam of the first image.  T_a_b maps b to a.  Plane: normal_cam . X = height, n points DOWN.
+/// Frames   cam: x right, y down, z forward.  ground: x forward, y left, z up, on the road under
+/// the camera.
+///          world: cam of the first image.  T_a_b maps b to a.  Plane: normal_cam . X = height, n
+///          points DOWN.
 /// Units    [vo] is VO's own unit; names that end in _m are metric.
 /// Memory   a ring of image pyramids, sized at construction; nothing grows.
 #pragma once

@@ -1,4 +1,5 @@
-/// A borrowed 8-bit grey image. Rows run top to bottom; (0,0) is the centre of the upper left pixel.
+/// A borrowed 8-bit grey image. Rows run top to bottom; (0,0) is the centre of the upper left
+/// pixel.
 #pragma once
 
 #include <cstddef>

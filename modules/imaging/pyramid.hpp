@@ -1,7 +1,7 @@
 /// Image pyramid by 2x2 averages, in owned storage.
 ///
-/// Level l is half the size of level l-1 (rounded down). Because each pixel averages a 2x2 block, pixel centres
-/// move: u_l = (u_0 + 0.5) / 2^l - 0.5.
+/// Level l is half the size of level l-1 (rounded down). Because each pixel averages a 2x2 block,
+/// pixel centres move: u_l = (u_0 + 0.5) / 2^l - 0.5.
 #pragma once
 
 #include <array>

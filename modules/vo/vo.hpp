@@ -1,10 +1,12 @@
 /// Monocular visual odometry: keyframe-anchored inverse-depth tracks and a windowed refinement.
 ///
-/// Pure algorithm: no clock, no I/O, no heap after construction. `main.cpp` is the process around it.
+/// Pure algorithm: no clock, no I/O, no heap after construction. `main.cpp` is the process around
+/// it.
 ///
 /// Frames   cam: x right, y down, z forward.  T_a_b maps b to a.
-/// Units    lengths in VO's own, slowly drifting unit [vo]; `scale_epoch` names it. Pixels in img, radians, seconds.
-/// Memory   everything is sized by VoConfig and the camera's image size at construction.
+/// Units    lengths in VO's own, slowly drifting unit [vo]; `scale_epoch` names it. Pixels in img,
+/// radians, seconds. Memory   everything is sized by VoConfig and the camera's image size at
+/// construction.
 #pragma once
 
 #include <Eigen/Core>
@@ -61,7 +63,8 @@ struct WindowPose {
   Se3 T_window_cam;  ///< cam now -> cam of frame `seq`, [vo]
 };
 
-/// A triangulated point below the horizon. Floats, because that is what travels: replay sees live's bits.
+/// A triangulated point below the horizon. Floats, because that is what travels: replay sees live's
+/// bits.
 struct RoadPoint {
   Eigen::Vector3f p_cam = Eigen::Vector3f::Zero();  ///< [vo]
   Eigen::Vector2f px = Eigen::Vector2f::Zero();     ///< where it is seen in the newest image
@@ -75,7 +78,8 @@ struct VoOutput {
   VoStatus status = VoStatus::kLost;
   VoReason reason = VoReason::kNone;
   std::int32_t scale_epoch = 0;
-  double scale_carry_std = 0.0;  ///< 1-sigma of ln(unit now / unit of the previous epoch); NaN when unknown
+  double scale_carry_std =
+      0.0;  ///< 1-sigma of ln(unit now / unit of the previous epoch); NaN when unknown
 
   std::int64_t prev_seq = -1;
   Se3 T_prev_cam;                            ///< [vo]
