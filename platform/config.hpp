@@ -1,15 +1,18 @@
-/// Strict TOML configuration: every key is owned by exactly one visit(); what is wrong is refused, never repaired.
+/// Strict TOML configuration: every key is owned by exactly one visit(); what is wrong is refused,
+/// never repaired.
 #pragma once
 
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace plumb {
 
-/// What is wrong with a configuration, with file, line, key and allowed range. Programs print it and exit with 2.
+/// What is wrong with a configuration, with file, line, key and allowed range. Programs print it
+/// and exit with 2.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -23,7 +26,8 @@ class ConfigFile {
   ~ConfigFile();
   ConfigFile(ConfigFile&&) noexcept;
 
-  /// The value of a dotted key replaces `value` when the file has it. Throws ConfigError on the wrong type or range.
+  /// The value of a dotted key replaces `value` when the file has it. Throws ConfigError on the
+  /// wrong type or range.
   void read(const char* key, double& value, double low, double high);
   void read(const char* key, int& value, double low, double high);
   void read(const char* key, bool& value);
@@ -40,13 +44,13 @@ class ConfigFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Field visitor: field(key, member, low, high, meaning) for numbers, field(key, member, meaning) for bool and
-/// text, field(key, member, choices, meaning) for a text out of a list.
+/// Field visitor: field(key, member, low, high, meaning) for numbers, field(key, member, meaning)
+/// for bool and text, field(key, member, choices, meaning) for a text out of a list.
 class ConfigReader {
  public:
   explicit ConfigReader(ConfigFile* file) : file_(file) {}
   template <typename T, typename L, typename H>
-    requires std::is_arithmetic_v<L>
+  requires std::is_arithmetic_v<L>
   void operator()(const char* key, T& value, L low, H high, const char* /*meaning*/) {
     file_->read(key, value, static_cast<double>(low), static_cast<double>(high));
   }
@@ -62,6 +66,48 @@ class ConfigReader {
  private:
   ConfigFile* file_;
 };
+
+/// Field visitor that writes every key with its value, range and meaning as TOML that ConfigReader
+/// accepts.
+class ConfigWriter {
+ public:
+  template <typename T, typename L, typename H>
+  requires std::is_arithmetic_v<L>
+  void operator()(const char* key, const T& value, L low, H high, const char* meaning) {
+    const bool whole = std::is_integral_v<T>;
+    add(key, number(static_cast<double>(value), whole), meaning,
+        "[" + number(static_cast<double>(low), whole) + ", " +
+            number(static_cast<double>(high), whole) + "]");
+  }
+  void operator()(const char* key, const bool& value, const char* meaning) {
+    add(key, value ? "true" : "false", meaning, "true or false");
+  }
+  void operator()(const char* key, const std::string& value, const char* meaning) {
+    add(key, quoted(value), meaning, "text");
+  }
+  void operator()(const char* key, const std::string& value,
+                  const std::vector<std::string>& choices, const char* meaning);
+
+  /// The whole text: one section per key prefix, in order of first appearance.
+  [[nodiscard]] std::string text() const;
+
+  /// Shortest text that reads back to the same number; `whole` numbers have no decimal point.
+  static std::string number(double value, bool whole);
+  static std::string quoted(const std::string& text);
+
+ private:
+  void add(const std::string& key, const std::string& value, const std::string& meaning,
+           const std::string& range);
+  std::vector<std::pair<std::string, std::string>> sections_;  ///< name, lines
+};
+
+/// TOML text of `config`, every key commented. config/default.toml is this text for the defaults.
+template <typename Config>
+[[nodiscard]] std::string render_config(const Config& config) {
+  ConfigWriter writer;
+  Config::visit(config, writer);
+  return writer.text();
+}
 
 /// Fills `config` from `path`; an empty path leaves the defaults. Throws ConfigError.
 template <typename Config>

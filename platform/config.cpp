@@ -1,0 +1,228 @@
+#include "platform/config.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace plumb {
+namespace {
+
+std::string render(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&out](const auto& value) { out << value; });
+  return out.str();
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+    }
+  }
+  return row[b.size()];
+}
+
+struct Leaf {
+  std::string key;
+  toml::source_index line;
+  bool is_section;
+};
+
+// Every value, and every table without values, with its dotted key.
+void collect(const toml::table& table, const std::string& prefix, std::vector<Leaf>* leaves) {
+  for (const auto& [name, node] : table) {
+    const std::string key = prefix + std::string(name.str());
+    const toml::table* inner = node.as_table();
+    if (inner != nullptr && !inner->empty()) {
+      collect(*inner, key + ".", leaves);
+    } else {
+      leaves->push_back({key, node.source().begin.line, inner != nullptr});
+    }
+  }
+}
+
+}  // namespace
+
+struct ConfigFile::Impl {
+  std::string path;
+  toml::table root;
+  std::set<std::string> known;
+
+  const toml::node* find(const char* key) {
+    known.insert(key);
+    return root.at_path(key).node();
+  }
+  [[noreturn]] void refuse(const char* key, const toml::node& node, const std::string& why) const {
+    throw ConfigError(path + ":" + std::to_string(node.source().begin.line) + ": " + key + " = " +
+                      render(node) + " " + why);
+  }
+  void check_range(const char* key, const toml::node& node, double value, double low,
+                   double high) const {
+    if (value >= low && value <= high) return;  // false for NaN
+    const bool whole = node.is_integer() && std::floor(low) == low && std::floor(high) == high;
+    refuse(key, node,
+           "is outside [" + ConfigWriter::number(low, whole || std::floor(low) == low) + ", " +
+               ConfigWriter::number(high, whole || std::floor(high) == high) + "]");
+  }
+};
+
+ConfigFile::ConfigFile() : impl_(std::make_unique<Impl>()) {}
+ConfigFile::~ConfigFile() = default;
+ConfigFile::ConfigFile(ConfigFile&&) noexcept = default;
+
+ConfigFile ConfigFile::load(const std::string& path) {
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) {
+    // An empty file also fails the copy, and is a valid configuration.
+    if (!stream.is_open() || errno != 0)
+      throw ConfigError("cannot read " + path + ": " + std::strerror(errno));
+  }
+  ConfigFile file;
+  file.impl_->path = path;
+  try {
+    file.impl_->root = toml::parse(text.str());
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw ConfigError(path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) +
+                      ": " + std::string(error.description()));
+  }
+  return file;
+}
+
+void ConfigFile::read(const char* key, double& value, double low, double high) {
+  const toml::node* node = impl_->find(key);
+  if (node == nullptr) return;
+  if (!node->is_number()) impl_->refuse(key, *node, "is not a number");
+  const double number = *node->value<double>();
+  impl_->check_range(key, *node, number, low, high);
+  value = number;
+}
+
+void ConfigFile::read(const char* key, int& value, double low, double high) {
+  const toml::node* node = impl_->find(key);
+  if (node == nullptr) return;
+  if (!node->is_integer()) impl_->refuse(key, *node, "is not a whole number");
+  const auto number = *node->value<std::int64_t>();
+  impl_->check_range(key, *node, static_cast<double>(number), low, high);
+  value = static_cast<int>(number);
+}
+
+void ConfigFile::read(const char* key, bool& value) {
+  const toml::node* node = impl_->find(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) impl_->refuse(key, *node, "is neither true nor false");
+  value = *node->value<bool>();
+}
+
+void ConfigFile::read(const char* key, std::string& value) {
+  const toml::node* node = impl_->find(key);
+  if (node == nullptr) return;
+  if (!node->is_string()) impl_->refuse(key, *node, "is not text in quotes");
+  value = *node->value<std::string>();
+}
+
+void ConfigFile::read(const char* key, std::string& value,
+                      const std::vector<std::string>& choices) {
+  std::string text = value;
+  read(key, text);
+  const toml::node* node = impl_->find(key);
+  if (node == nullptr) return;
+  if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
+    std::string list;
+    for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
+    impl_->refuse(key, *node, "is none of " + list);
+  }
+  value = text;
+}
+
+void ConfigFile::refuse_unread() const {
+  std::vector<Leaf> leaves;
+  collect(impl_->root, "", &leaves);
+  std::stable_sort(leaves.begin(), leaves.end(),
+                   [](const Leaf& a, const Leaf& b) { return a.line < b.line; });
+  for (const Leaf& leaf : leaves) {
+    const auto next = impl_->known.lower_bound(leaf.key + ".");
+    const bool owns_keys =
+        next != impl_->known.end() && next->compare(0, leaf.key.size() + 1, leaf.key + ".") == 0;
+    if (impl_->known.count(leaf.key) > 0 || (leaf.is_section && owns_keys)) continue;
+    std::string nearest;
+    std::size_t best = leaf.key.size() / 3 + 1;
+    for (const std::string& key : impl_->known) {
+      const std::size_t distance = edit_distance(leaf.key, key);
+      if (distance < best) {
+        best = distance;
+        nearest = key;
+      }
+    }
+    throw ConfigError(impl_->path + ":" + std::to_string(leaf.line) + ": " + leaf.key +
+                      (leaf.is_section ? " is not a known section" : " is not a known key") +
+                      (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  }
+}
+
+void ConfigWriter::operator()(const char* key, const std::string& value,
+                              const std::vector<std::string>& choices, const char* meaning) {
+  std::string list;
+  for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + quoted(choice);
+  add(key, quoted(value), meaning, "one of " + list);
+}
+
+std::string ConfigWriter::text() const {
+  std::string out =
+      "# Every setting of every plumb-* program, with its default. A file may hold any part of "
+      "it;\n"
+      "# what it leaves out keeps the default. Written by: plumb-vo --print-config\n";
+  for (const auto& [name, lines] : sections_) {
+    out += name.empty() ? "" : "\n[" + name + "]\n";
+    out += lines;
+  }
+  return out;
+}
+
+std::string ConfigWriter::number(double value, bool whole) {
+  std::array<char, 64> text{};
+  char* const last = text.data() + text.size();
+  const auto end = whole ? std::to_chars(text.data(), last, value, std::chars_format::fixed).ptr
+                         : std::to_chars(text.data(), last, value).ptr;
+  std::string out(text.data(), end);
+  const bool bare = out.find_first_not_of("-0123456789") == std::string::npos;
+  return !whole && bare ? out + ".0" : out;
+}
+
+std::string ConfigWriter::quoted(const std::string& text) {
+  std::ostringstream out;
+  out << toml::value<std::string>(text);
+  return out.str();
+}
+
+void ConfigWriter::add(const std::string& key, const std::string& value, const std::string& meaning,
+                       const std::string& range) {
+  const std::size_t dot = key.rfind('.');
+  const std::string section = dot == std::string::npos ? "" : key.substr(0, dot);
+  auto found = std::find_if(sections_.begin(), sections_.end(),
+                            [&section](const auto& s) { return s.first == section; });
+  if (found == sections_.end()) {
+    // Keys outside any section must come first in TOML.
+    found = sections_.insert(section.empty() ? sections_.begin() : sections_.end(), {section, ""});
+  }
+  found->second += "# " + meaning + "  " + range + "\n" +
+                   (dot == std::string::npos ? key : key.substr(dot + 1)) + " = " + value + "\n";
+}
+
+}  // namespace plumb

@@ -1,0 +1,83 @@
+/// Measures how long each stage of a frame takes: median, 99th percentile and maximum per stage.
+///
+/// Units    microseconds out, CLOCK_MONOTONIC inside.
+/// Memory   a histogram per stage in place (about 50 kB in all); nothing grows.
+/// Accuracy quantiles within 2 % (32 bins per octave from 0.5 us to 8 s); the maximum is exact.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "modules/geometry/stage_probe.hpp"
+
+namespace plumb {
+
+/// Fixed log-spaced histogram of durations.
+class DurationHistogram {
+ public:
+  void add(double duration_us);
+  [[nodiscard]] std::int64_t num_samples() const { return num_samples_; }
+  [[nodiscard]] double max_us() const { return max_us_; }
+  /// Value that a share `q` in [0, 1] of the samples does not exceed; 0 without samples.
+  [[nodiscard]] double quantile_us(double q) const;
+
+ private:
+  static constexpr int kBinsPerOctave = 32;
+  static constexpr int kOctaves = 24;
+  static constexpr double kLowest_us = 0.5;
+  std::array<std::uint32_t, static_cast<std::size_t>(kBinsPerOctave* kOctaves)> bins_{};
+  std::int64_t num_samples_ = 0;
+  double max_us_ = 0.0;
+};
+
+struct StageStats {
+  const char* name = "";
+  std::int64_t num_samples = 0;
+  double median_us = 0.0;
+  double p99_us = 0.0;
+  double max_us = 0.0;
+  double last_us = 0.0;  ///< in the newest frame; 0 when the stage did not run in it
+};
+
+/// begin(), mark() per stage, end(): one frame. A stage marked twice in a frame counts with its
+/// sum. Further begin() calls inside a frame restart the running stage only, so a caller may time
+/// work of its own around a library that begins by itself.
+class StageTimer final : public StageProbe {
+ public:
+  static constexpr std::size_t kMaxStages = 16;
+
+  void begin() override;
+  void mark(const char* name) override;
+  /// The frame is over: its stages, and their total from the first begin() on, enter the
+  /// statistics.
+  void end();
+
+  /// Stages seen so far, in order of first appearance; the last one is "total".
+  [[nodiscard]] std::size_t num_stages() const { return num_frames_ == 0 ? 0 : num_stages_ + 1; }
+  [[nodiscard]] StageStats stats(std::size_t stage) const;
+  [[nodiscard]] StageStats total() const;
+  /// Marks that were lost because kMaxStages - 1 names were in use.
+  [[nodiscard]] std::int64_t num_refused() const { return num_refused_; }
+
+ private:
+  struct Stage {
+    const char* name = "";
+    double pending_us = 0.0;
+    double last_us = 0.0;
+    bool ran = false;
+    DurationHistogram histogram;
+  };
+  static StageStats to_stats(const Stage& stage);
+
+  std::array<Stage, kMaxStages - 1> stages_{};
+  Stage total_{"total", 0.0, 0.0, false, {}};
+  std::size_t num_stages_ = 0;
+  std::int64_t num_frames_ = 0;
+  std::int64_t num_refused_ = 0;
+  std::int64_t frame_start_ns_ = 0;
+  std::int64_t stage_start_ns_ = 0;
+  bool in_frame_ = false;
+};
+
+}  // namespace plumb
