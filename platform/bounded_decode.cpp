@@ -1,0 +1,45 @@
+#include "platform/bounded_decode.hpp"
+
+#include "plumb/stage_latency_t.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr std::int32_t kMaxStages = 16;  // process_health_t.num_stages
+
+// Both lists begin: fingerprint, utime, ... count.
+bool count_holds(std::span<const std::uint8_t> bytes, int bytes_before_count, std::int32_t most) {
+  WireCursor cursor(bytes);
+  cursor.skip(bytes_before_count);
+  const std::int32_t count = cursor.i32();
+  return cursor.ok() && count >= 0 && count <= most;
+}
+
+}  // namespace
+
+bool lengths_hold(std::span<const std::uint8_t> bytes, const detections_t* /*type*/) {
+  return count_holds(bytes, 24, detections_t::MAX_DETECTIONS);
+}
+
+bool lengths_hold(std::span<const std::uint8_t> bytes, const objects_t* /*type*/) {
+  return count_holds(bytes, 16, objects_t::MAX_OBJECTS);
+}
+
+bool lengths_hold(std::span<const std::uint8_t> bytes, const process_health_t* /*type*/) {
+  WireCursor cursor(bytes);
+  cursor.skip(16);
+  (void)cursor.text();
+  (void)cursor.text();
+  cursor.skip(1);
+  (void)cursor.text();
+  cursor.skip(6 * 8 + 4 + 2 * 8);
+  const std::int32_t count = cursor.i32();
+  if (!cursor.ok() || count < 0 || count > kMaxStages) return false;
+  for (std::int32_t i = 0; i < count; ++i) {
+    (void)cursor.text();
+    cursor.skip(8 + 3 * 8);
+  }
+  return cursor.at_end();
+}
+
+}  // namespace plumb

@@ -1,0 +1,135 @@
+#include "platform/process.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <optional>
+
+#include "platform/clock.hpp"
+#include "platform/log.hpp"
+#include "platform/version.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr int kExitOk = 0;
+constexpr int kExitMachine = 1;
+constexpr int kExitRefused = 2;
+
+void check_url(const std::string& url) {
+  if (url.empty()) return;
+  for (const char* provider : {"udpm://", "memq://", "tcpq://"})
+    if (url.rfind(provider, 0) == 0) return;
+  throw UsageError("--lcm-url " + url + " begins with none of udpm://, memq://, tcpq://");
+}
+
+}  // namespace
+
+struct Process::Impl {
+  explicit Impl(const ProcessInfo& process_info)
+      : info(process_info),
+        program(std::string("plumb-") + process_info.name),
+        app(process_info.summary, program),
+        health(process_info.name) {}
+
+  ProcessInfo info;
+  std::string program;
+  CLI::App app;
+  std::string url;
+  std::string config_path;
+  bool print_config = false;
+  Counters counters;
+  StageTimer timer;
+  Health health;
+  std::optional<EventLoop> loop;
+  std::optional<Bus> bus;
+};
+
+Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) {
+  set_log_name(impl_->program.c_str());
+  CLI::App& app = impl_->app;
+  app.add_option("--lcm-url", impl_->url,
+                 "LCM network; default $LCM_DEFAULT_URL, else this machine");
+  app.add_option("--config", impl_->config_path, "TOML file; every key is optional");
+  app.add_flag("--print-config", impl_->print_config,
+               "print every setting with its range and the value it would have, then exit");
+}
+
+Process::~Process() = default;
+
+CLI::App& Process::options() { return impl_->app; }
+Bus& Process::bus() { return *impl_->bus; }
+EventLoop& Process::loop() { return *impl_->loop; }
+Health& Process::health() { return impl_->health; }
+Counters& Process::counters() { return impl_->counters; }
+StageTimer& Process::timer() { return impl_->timer; }
+
+int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
+                       const std::function<void()>& setup) {
+  const int done = parse_command_line(impl_->app, impl_->program.c_str(), argc, argv);
+  if (done >= 0) return done;
+  try {
+    check_url(impl_->url);
+    config.load(impl_->config_path);
+    if (impl_->print_config) {
+      std::fputs(config.render().c_str(), stdout);
+      return std::fflush(stdout) == 0 ? kExitOk : kExitMachine;
+    }
+    serve(setup);
+    return kExitOk;
+  } catch (const ConfigError& error) {
+    log_line("%s", error.what());
+    return kExitRefused;
+  } catch (const UsageError& error) {
+    log_line("%s", error.what());
+    return kExitRefused;
+  } catch (const std::exception& error) {
+    log_line("%s", error.what());
+    return kExitMachine;
+  }
+}
+
+void Process::serve(const std::function<void()>& setup) {
+  Impl& p = *impl_;
+  p.loop.emplace();  // before liblcm starts its thread, which then leaves the stop signals to us
+  p.bus.emplace(p.url, &p.counters);
+  Counters health_counters;  // health messages are not this process's product
+  Publisher<process_health_t> publisher(*p.bus, p.info.health, Health::kMaxBytes, &health_counters);
+  setup();
+  if (!p.bus->subscribers().empty()) {
+    p.loop->watch(p.bus->fileno(), [&p] { p.bus->handle(); });
+  }
+  const auto report = [&p, &publisher] {
+    publisher.publish(p.health.report(monotonic_us(), p.counters, *p.bus, p.timer));
+  };
+  p.loop->every(kHealthPeriod_us, report);
+  report();
+  p.loop->run();
+
+  const int signal = p.loop->stop_signal();
+  publisher.publish(p.health.report_stopping(monotonic_us(), signal == SIGINT    ? "SIGINT"
+                                                             : signal == SIGTERM ? "SIGTERM"
+                                                                                 : "done"));
+  const Counters& c = p.counters;
+  log_line(
+      "stopped; received %lld, rejected %lld, lost %lld, late %lld, published %lld, unsent %lld",
+      static_cast<long long>(c.num_received), static_cast<long long>(c.num_rejected),
+      static_cast<long long>(c.num_dropped), static_cast<long long>(c.num_late),
+      static_cast<long long>(c.num_published), static_cast<long long>(c.num_unsent));
+}
+
+int parse_command_line(CLI::App& app, const char* program, int argc, char** argv) {
+  app.set_version_flag("--version", std::string(program) + " " + plumb_version());
+  try {
+    app.parse(argc, argv);
+    return -1;
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success) == 0 ? kExitOk : kExitMachine;
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "%s: %s (--help lists the options)\n", program, error.what());
+    return kExitRefused;
+  }
+}
+
+}  // namespace plumb
