@@ -1,17 +1,21 @@
-/// All settings of all processes: one file serves them all, and a key that none of them owns is an error.
+/// All settings of all processes: one file serves them all, and a key that none of them owns is an
+/// error.
 #pragma once
 
+#include "modules/camera/camera_config.hpp"
 #include "modules/ground/ground_config.hpp"
 #include "modules/vo/vo_config.hpp"
 
 namespace plumb {
 
 struct PlumbConfig {
+  CameraConfig camera;
   VoConfig vo;
   GroundConfig ground;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
+    CameraConfig::visit(c.camera, field);
     VoConfig::visit(c.vo, field);
     GroundConfig::visit(c.ground, field);
   }
