@@ -1,0 +1,259 @@
+#include "modules/detections/foot_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+
+#include "tests/support/central_difference.hpp"
+
+namespace plumb {
+namespace {
+
+using Vector1d = Eigen::Matrix<double, 1, 1>;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+CameraModel camera(double k1) { return {1242, 375, 721.5, 719.0, 609.6, 172.9, k1, 1.65}; }
+
+RoadPlane plane(double pitch_rad, double roll_rad, double height_m) {
+  RoadPlane result;
+  result.pitch_rad = pitch_rad;
+  result.roll_rad = roll_rad;
+  result.height_m = height_m;
+  return result;
+}
+
+/// Level, nose down, nose up and tilted, at different heights.
+const std::array<RoadPlane, 4> kPlanes{plane(0.0, 0.0, 1.65), plane(0.02, 0.0, 1.3),
+                                       plane(-0.015, 0.01, 1.9), plane(0.01, -0.03, 1.65)};
+
+/// (u, v_foot, v_head), all with the foot below every horizon above.
+const std::array<Eigen::Vector3d, 4> kBoxes{
+    Eigen::Vector3d(609.6, 200.0, 170.0), Eigen::Vector3d(200.0, 300.0, 150.0),
+    Eigen::Vector3d(1000.0, 230.0, 190.0), Eigen::Vector3d(700.0, 350.0, 180.0)};
+
+RoadPlane moved(const RoadPlane& from, const Eigen::Vector3d& pitch_roll_log_height) {
+  RoadPlane result = from;
+  result.pitch_rad = pitch_roll_log_height.x();
+  result.roll_rad = pitch_roll_log_height.y();
+  result.height_m = std::exp(pitch_roll_log_height.z());
+  return result;
+}
+
+Eigen::Vector3d parameters(const RoadPlane& p) {
+  return {p.pitch_rad, p.roll_rad, std::log(p.height_m)};
+}
+
+TEST(RoadPlane, AxesAreForwardLeftUpAndTheCameraStandsOverTheOrigin) {
+  for (const RoadPlane& road : kPlanes) {
+    const Eigen::Matrix3d R = road.R_ground_cam();
+    EXPECT_LT((R * R.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+    EXPECT_LT((R.row(2).transpose() + road.normal_cam()).norm(), 1e-14);
+    EXPECT_NEAR((R * Eigen::Vector3d::UnitZ()).y(), 0.0, 1e-14);
+    EXPECT_GT((R * Eigen::Vector3d::UnitZ()).x(), 0.99);
+    EXPECT_LT((R * Eigen::Vector3d::UnitX()).y(), -0.99);
+    const Eigen::Vector3d below = road.height_m * road.normal_cam();
+    EXPECT_LT(road.ground_from_cam(below).norm(), 1e-14);
+  }
+}
+
+TEST(RoadPlane, GroundAndCameraCoordinatesAreInverses) {
+  const Eigen::Vector3d p_cam(-3.0, 1.2, 17.0);
+  for (const RoadPlane& road : kPlanes) {
+    EXPECT_LT((road.cam_from_ground(road.ground_from_cam(p_cam)) - p_cam).norm(), 1e-13);
+  }
+}
+
+TEST(RoadPlane, NoseDownRaisesTheHorizonInTheImage) {
+  // A far point on the road ahead is seen above the principal point when the camera looks down.
+  const RoadPlane road = plane(0.02, 0.0, 1.65);
+  const Eigen::Vector3d far_cam = road.cam_from_ground({1e6, 0.0, 0.0});
+  EXPECT_LT(camera(0.0).project(far_cam).y(), camera(0.0).cy_px);
+}
+
+TEST(RoadPlane, NormalJacobianAgreesWithDifferences) {
+  for (const RoadPlane& road : kPlanes) {
+    const auto normal = [&](const Eigen::Vector2d& x) {
+      return plane(x.x(), x.y(), 1.0).normal_cam();
+    };
+    const auto J = test::central_difference<3, 2>(
+        normal, Eigen::Vector2d(road.pitch_rad, road.roll_rad), 1e-6);
+    EXPECT_LT((J - road.normal_jacobian()).norm(), 1e-9);
+  }
+}
+
+TEST(FootPoint, FindsThePointThatWasProjected) {
+  for (const double k1 : {0.0, 0.01}) {
+    for (const RoadPlane& road : kPlanes) {
+      const Eigen::Vector3d p_ground(24.0, -3.5, 0.0);
+      const Eigen::Vector3d p_cam = road.cam_from_ground(p_ground);
+      const auto foot = back_project_foot(camera(k1), road, camera(k1).project(p_cam),
+                                          Eigen::Matrix2d::Identity());
+      ASSERT_TRUE(foot.has_value());
+      EXPECT_LT((foot->p_cam - p_cam).norm(), 1e-7);
+      EXPECT_NEAR(road.ground_from_cam(foot->p_cam).z(), 0.0, 1e-9);
+    }
+  }
+}
+
+TEST(FootPoint, IsTheWorkedExampleOfALevelCamera) {
+  // 72.15 px below the horizon at f = 721.5: ten camera heights ahead, and 0.5 m to the right.
+  const CameraModel simple{1242, 375, 721.5, 721.5, 600.0, 170.0, 0.0, 1.5};
+  const auto foot =
+      back_project_foot(simple, plane(0.0, 0.0, 1.5), {624.05, 242.15}, Eigen::Matrix2d::Zero());
+  ASSERT_TRUE(foot.has_value());
+  EXPECT_LT((foot->p_cam - Eigen::Vector3d(0.5, 1.5, 15.0)).norm(), 1e-12);
+}
+
+TEST(FootPoint, JacobiansAgreeWithDifferences) {
+  for (const double k1 : {0.0, 0.01}) {
+    for (const RoadPlane& road : kPlanes) {
+      for (const Eigen::Vector3d& box : kBoxes) {
+        const auto foot =
+            back_project_foot(camera(k1), road, box.head<2>(), Eigen::Matrix2d::Zero());
+        ASSERT_TRUE(foot.has_value());
+        const auto by_pixel = [&](const Eigen::Vector2d& px) {
+          return back_project_foot(camera(k1), road, px, Eigen::Matrix2d::Zero())->p_cam;
+        };
+        const auto by_plane = [&](const Eigen::Vector3d& x) {
+          return back_project_foot(camera(k1), moved(road, x), box.head<2>(),
+                                   Eigen::Matrix2d::Zero())
+              ->p_cam;
+        };
+        const auto J_px =
+            test::central_difference<3, 2>(by_pixel, Eigen::Vector2d(box.head<2>()), 1e-4);
+        const auto J_plane = test::central_difference<3, 3>(by_plane, parameters(road), 1e-7);
+        EXPECT_LT((J_px - foot->J_px).norm(), 1e-5 * foot->J_px.norm());
+        EXPECT_LT((J_plane - foot->J_plane).norm(), 1e-5 * foot->J_plane.norm());
+      }
+    }
+  }
+}
+
+TEST(FootPoint, CovarianceAddsPixelAndPlane) {
+  RoadPlane road = plane(0.0, 0.0, 1.65);
+  road.cov.diagonal() << 4e-6, 1e-6, 1e-4;
+  const Eigen::Matrix2d cov_px2 = Eigen::Vector2d(1.0, 4.0).asDiagonal();
+  const auto foot = back_project_foot(camera(0.0), road, {609.6, 208.85}, cov_px2);
+  ASSERT_TRUE(foot.has_value());
+  // Straight ahead dZ = -Z^2/(f h) dv, dZ = -Z^2/h dpitch (for small pitch), dZ = Z dlnh.
+  const double Z = foot->p_cam.z();
+  const double expected = std::pow(Z * Z / (719.0 * 1.65) * 2.0, 2) +
+                          std::pow((Z * Z / 1.65 + 1.65) * 2e-3, 2) + std::pow(Z * 1e-2, 2);
+  EXPECT_NEAR(foot->cov_cam_m2(2, 2), expected, 0.005 * expected);
+}
+
+TEST(FootPoint, RefusesRaysThatMissTheRoad) {
+  const RoadPlane road = plane(0.0, 0.0, 1.65);
+  const Eigen::Matrix2d none = Eigen::Matrix2d::Zero();
+  EXPECT_FALSE(back_project_foot(camera(0.0), road, {600.0, 172.9}, none).has_value());
+  EXPECT_FALSE(back_project_foot(camera(0.0), road, {600.0, 100.0}, none).has_value());
+  EXPECT_TRUE(back_project_foot(camera(0.0), road, {600.0, 174.0}, none).has_value());
+}
+
+TEST(ObjectHeight, FindsTheHeightThatWasProjected) {
+  for (const RoadPlane& road : kPlanes) {
+    const Eigen::Vector3d foot_cam = road.cam_from_ground({18.0, 2.0, 0.0});
+    const Eigen::Vector3d head_cam = road.cam_from_ground({18.0, 2.0, 1.52});
+    const auto height =
+        object_height(camera(0.0), road, camera(0.0).project(foot_cam),
+                      camera(0.0).project(head_cam).y(), Eigen::Matrix3d::Identity());
+    ASSERT_TRUE(height.has_value());
+    EXPECT_NEAR(height->height_m, 1.52, 1e-9);
+  }
+}
+
+TEST(ObjectHeight, JacobiansAgreeWithDifferences) {
+  for (const double k1 : {0.0, 0.01}) {
+    for (const RoadPlane& road : kPlanes) {
+      for (const Eigen::Vector3d& box : kBoxes) {
+        const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
+        const auto height = object_height(camera(k1), road, box.head<2>(), box.z(), none);
+        ASSERT_TRUE(height.has_value());
+        const auto by_pixel = [&](const Eigen::Vector3d& x) {
+          return Vector1d(object_height(camera(k1), road, x.head<2>(), x.z(), none)->height_m);
+        };
+        const auto by_plane = [&](const Eigen::Vector3d& x) {
+          return Vector1d(
+              object_height(camera(k1), moved(road, x), box.head<2>(), box.z(), none)->height_m);
+        };
+        const auto J_px = test::central_difference<1, 3>(by_pixel, box, 1e-4);
+        const auto J_plane = test::central_difference<1, 3>(by_plane, parameters(road), 1e-7);
+        EXPECT_LT((J_px.transpose() - height->J_px).norm(), 1e-5 * height->J_px.norm());
+        EXPECT_LT((J_plane.transpose() - height->J_plane).norm(), 1e-5 * height->J_plane.norm());
+      }
+    }
+  }
+}
+
+TEST(ObjectHeight, RefusesAHeadBelowTheFoot) {
+  EXPECT_FALSE(object_height(camera(0.0), plane(0.0, 0.0, 1.65), {600.0, 220.0}, 221.0,
+                             Eigen::Matrix3d::Zero())
+                   .has_value());
+}
+
+TEST(PitchFromBox, InvertsTheObjectHeightExactlyWithoutRoll) {
+  for (const double pitch_deg : {-3.0, -0.5, 0.0, 0.3, 2.0}) {
+    const RoadPlane road = plane(pitch_deg * kDegree, 0.0, 1.65);
+    for (const Eigen::Vector3d& box : kBoxes) {
+      const auto height =
+          object_height(camera(0.0), road, box.head<2>(), box.z(), Eigen::Matrix3d::Zero());
+      if (!height) continue;
+      const auto pitch =
+          pitch_from_box(camera(0.0), 0.0, box.head<2>(), box.z(), height->height_m / 1.65);
+      ASSERT_TRUE(pitch.has_value());
+      EXPECT_NEAR(pitch->pitch_rad, road.pitch_rad, 1e-12);
+    }
+  }
+}
+
+TEST(PitchFromBox, FollowsTheRoll) {
+  for (const double roll_deg : {-2.0, 2.0}) {
+    const RoadPlane road = plane(0.3 * kDegree, roll_deg * kDegree, 1.65);
+    const Eigen::Vector2d foot_px = camera(0.0).project(road.cam_from_ground({20.0, 4.0, 0.0}));
+    const double head_v_px = camera(0.0).project(road.cam_from_ground({20.0, 4.0, 1.5})).y();
+    const auto pitch = pitch_from_box(camera(0.0), road.roll_rad, foot_px, head_v_px, 1.5 / 1.65);
+    ASSERT_TRUE(pitch.has_value());
+    EXPECT_NEAR(pitch->pitch_rad, road.pitch_rad, 0.01 * kDegree);
+  }
+}
+
+TEST(PitchFromBox, IsTheLinearFormOfTheHorizonRowToAThousandth) {
+  // v_h = v_foot - (v_foot - v_head) h / H.
+  const auto pitch = pitch_from_box(camera(0.0), 0.0, {600.0, 220.0}, 180.0, 0.9);
+  ASSERT_TRUE(pitch.has_value());
+  const double v_h = 220.0 - 40.0 / 0.9;
+  EXPECT_NEAR(pitch->pitch_rad, -std::atan((v_h - 172.9) / 719.0), 1e-4);
+}
+
+TEST(PitchFromBox, DerivativesAgreeWithDifferences) {
+  for (const double k1 : {0.0, 0.01}) {
+    for (const double roll : {0.0, 0.02}) {
+      for (const Eigen::Vector3d& box : kBoxes) {
+        const auto pitch = pitch_from_box(camera(k1), roll, box.head<2>(), box.z(), 0.92);
+        ASSERT_TRUE(pitch.has_value());
+        const auto by_pixel = [&](const Eigen::Vector3d& x) {
+          return Vector1d(pitch_from_box(camera(k1), roll, x.head<2>(), x.z(), 0.92)->pitch_rad);
+        };
+        const auto by_roll_and_ratio = [&](const Eigen::Vector2d& x) {
+          return Vector1d(pitch_from_box(camera(k1), x.x(), box.head<2>(), box.z(), std::exp(x.y()))
+                              ->pitch_rad);
+        };
+        const auto J_px = test::central_difference<1, 3>(by_pixel, box, 1e-4);
+        const auto J = test::central_difference<1, 2>(by_roll_and_ratio,
+                                                      Eigen::Vector2d(roll, std::log(0.92)), 1e-6);
+        EXPECT_LT((J_px.transpose() - pitch->J_px).norm(), 1e-6 * pitch->J_px.norm());
+        EXPECT_NEAR(J(0), pitch->J_roll, 1e-7);
+        EXPECT_NEAR(J(1), pitch->J_log_ratio, 1e-7);
+      }
+    }
+  }
+}
+
+TEST(PitchFromBox, RefusesABoxUpsideDown) {
+  EXPECT_FALSE(pitch_from_box(camera(0.0), 0.0, {600.0, 180.0}, 220.0, 0.9).has_value());
+  EXPECT_FALSE(pitch_from_box(camera(0.0), 0.0, {600.0, 180.0}, 180.0, 0.9).has_value());
+}
+
+}  // namespace
+}  // namespace plumb
