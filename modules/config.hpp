@@ -3,6 +3,7 @@
 #pragma once
 
 #include "modules/camera/camera_config.hpp"
+#include "modules/can/can_config.hpp"
 #include "modules/ground/ground_config.hpp"
 #include "modules/vo/vo_config.hpp"
 
@@ -12,12 +13,14 @@ struct PlumbConfig {
   CameraConfig camera;
   VoConfig vo;
   GroundConfig ground;
+  CanConfig can;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
     CameraConfig::visit(c.camera, field);
     VoConfig::visit(c.vo, field);
     GroundConfig::visit(c.ground, field);
+    CanConfig::visit(c.can, field);
   }
 };
 

@@ -1,0 +1,62 @@
+/// GROUND_PLANE and EGO_MOTION -> CAN frames: what plumb-can runs live and plumb-replay runs on a
+/// log.
+///
+/// The input is the LCM message, also in a replay: quaternions and matrices round differently, and
+/// "live equals replay" is judged bit for bit.
+///
+/// Live     on_*(message, monotonic_us()) as messages arrive, tick(monotonic_us(), sink) from a
+///          timer of CanGate::kTickUs.
+/// Replay   per message on_*(message, message.utime); advance(message.utime, sink) before it;
+///          finish(sink) at the end.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/can/can_gate.hpp"
+#include "plumb/ego_motion_t.hpp"
+#include "plumb/ground_plane_t.hpp"
+
+namespace plumb {
+
+/// False when the message breaks its contract: unknown status, negative seq, or a value that its
+/// status says holds is not a number or has a negative variance.
+[[nodiscard]] bool from_wire(const ego_motion_t& message, CanEgo* ego);
+[[nodiscard]] bool from_wire(const ground_plane_t& message, CanPlane* plane);
+
+class CanOutput {
+ public:
+  explicit CanOutput(const CanConfig& config) : gate_(config) {}
+
+  /// False when the message was rejected (and counted).
+  bool on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
+  bool on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
+
+  /// A message that could not even be decoded.
+  void count_rejected() { ++num_rejected_; }
+
+  /// One tick of the caller's timer.
+  void tick(std::int64_t now_us, CanSink& sink);
+
+  /// Virtual clock: every tick up to and including `now_us`. A step back, or one of more than
+  /// kMaxStepUs forward, first sends what waits and then starts a new grid at `now_us`.
+  void advance(std::int64_t now_us, CanSink& sink);
+  /// Ticks until no frame waits.
+  void finish(CanSink& sink);
+
+  /// Frames that the bus did not take; shown in PLB_Status.
+  void set_num_unsent(std::int64_t num_unsent) { num_unsent_ = num_unsent; }
+  [[nodiscard]] const CanCounters& counters() const { return gate_.counters(); }
+
+ private:
+  static constexpr std::int64_t kMaxStepUs = 10'000'000;
+
+  CanGate gate_;
+  CanEgo ego_;
+  CanPlane plane_;
+  std::int64_t num_rejected_ = 0;
+  std::int64_t num_unsent_ = 0;
+  std::int64_t next_tick_us_ = 0;
+  bool is_started_ = false;
+};
+
+}  // namespace plumb

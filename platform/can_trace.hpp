@@ -1,0 +1,71 @@
+/// CAN frames in a text file, in the format of `candump -L`: a sink equal to a bus, and a reader.
+///
+/// Format   one line per frame, `(1436509052.249713) can0 3A0#DEADBEEF`; CAN FD `3A0##1DEADBEEF`.
+/// Memory   the writer owns one buffer; nothing grows after construction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform/can_frame.hpp"
+
+namespace plumb {
+
+/// Writes a trace. The first failure (full disk) is kept and ends the writing; frames never throw.
+class CanTraceWriter final : public CanSink {
+ public:
+  /// Creates or replaces the file; see error(). `interface` is the name printed on each line.
+  CanTraceWriter(const std::string& path, const std::string& interface);
+  ~CanTraceWriter() override;
+  CanTraceWriter(const CanTraceWriter&) = delete;
+  CanTraceWriter& operator=(const CanTraceWriter&) = delete;
+
+  /// Added to every time stamp, for example to turn a monotonic clock into the calendar's.
+  void set_time_offset_us(std::int64_t offset_us) { offset_us_ = offset_us; }
+
+  void send(std::int64_t time_us, const CanFrame& frame) override;
+  /// Hands everything written to the system. False when the trace is broken.
+  bool flush();
+  /// "FILE: cannot write: No space left on device"; empty while all is well.
+  [[nodiscard]] const std::string& error() const { return error_; }
+  [[nodiscard]] std::int64_t num_frames() const { return num_frames_; }
+
+ private:
+  void fail(const char* what, int error_number);
+
+  std::string path_;
+  std::string interface_;
+  std::string error_;
+  int fd_ = -1;
+  std::int64_t offset_us_ = 0;
+  std::int64_t num_frames_ = 0;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;
+};
+
+/// Reads a trace line by line; empty lines are skipped.
+class CanTraceReader {
+ public:
+  /// See error() when the file cannot be opened.
+  explicit CanTraceReader(const std::string& path);
+
+  /// False at the end and at the first line that is not a frame; then error() names it.
+  [[nodiscard]] bool next(std::int64_t* time_us, CanFrame* frame);
+  /// "FILE:line: not a CAN frame"; empty while all is well.
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::string path_;
+  std::string error_;
+  std::unique_ptr<std::FILE, Close> file_;
+  int line_ = 0;
+};
+
+}  // namespace plumb
