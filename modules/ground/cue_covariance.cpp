@@ -1,0 +1,59 @@
+#include "modules/ground/cue_covariance.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "modules/ground/plane_filter.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+// Residuals of neighbouring pixels are correlated: standard deviations grow by this.
+constexpr double kPixelCorrelation = 3.0;
+constexpr double kLeastInformation = 1e-3;
+constexpr double kDenseTiltFloorStd = 0.4 * kDegree;
+constexpr double kDenseLnHeightFloorStd = 0.03;
+constexpr double kPointsLnHeightStd = 0.04;
+constexpr double kPointsHalfTrust =
+    10.0;  // inliers at which the variance has halved towards its floor
+constexpr double kTravelStd = 0.3 * kDegree;
+
+}  // namespace
+
+Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q) {
+  const double norm = q.norm();
+  return {q.x() / norm, q.z() / norm, -std::log(norm)};
+}
+
+Eigen::Matrix3d FloorCovariance::dense(const DenseObservation& dense) const {
+  const Eigen::Matrix3d J = plane_jacobian(state_of_plane(dense.q));
+  const Eigen::Matrix3d information =
+      J.transpose() * dense.information * J / (kPixelCorrelation * kPixelCorrelation) +
+      kLeastInformation * Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d cov = information.inverse();
+  cov(0, 0) += kDenseTiltFloorStd * kDenseTiltFloorStd;
+  cov(1, 1) += kDenseTiltFloorStd * kDenseTiltFloorStd;
+  cov(2, 2) += kDenseLnHeightFloorStd * kDenseLnHeightFloorStd;
+  return cov;
+}
+
+double FloorCovariance::points(const PointsObservation& points) const {
+  return kPointsLnHeightStd * kPointsLnHeightStd * (1.0 + kPointsHalfTrust / points.num_inliers);
+}
+
+double FloorCovariance::travel(const Travel& /*travel*/) const { return kTravelStd * kTravelStd; }
+
+double FloorCovariance::dense_quality(const DenseObservation& dense) const {
+  return dense.ok ? std::clamp(dense.ncc, 0.0, 1.0) : 0.0;
+}
+
+double FloorCovariance::points_quality(const PointsObservation& points) const {
+  if (!points.ok) return 0.0;
+  return static_cast<double>(points.num_inliers) / (points.num_inliers + kPointsHalfTrust);
+}
+
+}  // namespace plumb

@@ -1,0 +1,42 @@
+/// How far each cue is trusted in this frame. One interface, so that models can be exchanged.
+///
+/// Units  variances of the filter's state (n1, n3, ln h).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "modules/ground/dense_cue.hpp"
+#include "modules/ground/points_cue.hpp"
+#include "modules/ground/travel.hpp"
+
+namespace plumb {
+
+class CueCovariance {
+ public:
+  virtual ~CueCovariance() = default;
+  /// Of (n1, n3, ln h) out of the dense cue. @pre dense.ok
+  [[nodiscard]] virtual Eigen::Matrix3d dense(const DenseObservation& dense) const = 0;
+  /// Of ln(n . centre). @pre points.ok
+  [[nodiscard]] virtual double points(const PointsObservation& points) const = 0;
+  /// Of n . direction. @pre travel.valid
+  [[nodiscard]] virtual double travel(const Travel& travel) const = 0;
+  /// Belief in [0, 1], for display and for the least quality that enters the fusion.
+  [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
+  [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
+};
+
+/// Pixel noise plus a floor for what pixel noise does not explain: pose error, heave and road
+/// shape.
+class FloorCovariance final : public CueCovariance {
+ public:
+  [[nodiscard]] Eigen::Matrix3d dense(const DenseObservation& dense) const override;
+  [[nodiscard]] double points(const PointsObservation& points) const override;
+  [[nodiscard]] double travel(const Travel& travel) const override;
+  [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
+  [[nodiscard]] double points_quality(const PointsObservation& points) const override;
+};
+
+/// (n1, n3, ln h) of a plane q = n/h.
+[[nodiscard]] Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q);
+
+}  // namespace plumb

@@ -1,0 +1,326 @@
+#include "modules/ground/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "modules/ground/cue_covariance.hpp"
+#include "modules/ground/dense_cue.hpp"
+#include "modules/ground/ego_motion.hpp"
+#include "modules/ground/image_ring.hpp"
+#include "modules/ground/plane_angles.hpp"
+#include "modules/ground/plane_filter.hpp"
+#include "modules/ground/points_cue.hpp"
+#include "modules/ground/travel.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// A shorter chord does not tell the direction of travel, nor new points their depth. In camera
+// heights.
+constexpr double kShortestChordRatio = 0.25;
+// Points nearer to the horizon than this (y/z) are too far to help.
+constexpr double kMinPointRaySlope = 0.028;
+
+constexpr double kLeastDenseQuality = 0.8;
+constexpr int kLeastPoints = 4;
+constexpr int kLeastPointsToStart = 8;
+
+// Half range of the height sweep in ln h, when the filter is sure of its height and when it is not.
+constexpr double kSweepSettled = 0.2;
+constexpr double kSweepWide = 0.45;
+constexpr double kSettledLnStd = 0.05;
+
+double height_m_of(const GroundConfig& config, const CameraModel& camera) {
+  return camera.camera_height_m > 0.0 ? camera.camera_height_m : config.camera_height_m;
+}
+
+CueObservation absent_cue() {
+  return {CueStatus::kAbsent, kNan, kNan, kNan, kNan, kNan, kNan, 0.0};
+}
+
+/// The plane's height that fits the dense cue best when its normal is `n`.
+double height_given_normal(const DenseObservation& dense, const Eigen::Vector3d& n) {
+  return n.dot(dense.information * n) / n.dot(dense.information * dense.q);
+}
+
+}  // namespace
+
+struct GroundEstimator::Impl {
+  Impl(const GroundConfig& config_in, const CameraModel& camera)
+      : config(config_in),
+        camera_height_m(height_m_of(config_in, camera)),
+        ring(camera),
+        dense_cue(ring.camera(), ring.num_levels()) {}
+
+  void take_image(const GroundInput& input);
+  void follow_scale_epoch(const VoOutput& vo);
+  void measure_cues(const VoOutput& vo, StageProbe& probe);
+  bool prepare_plane(const VoOutput& vo);
+  void measure_dense(const VoOutput& vo);
+  void measure_points(const VoOutput& vo);
+  void fuse();
+  void start_filter();
+  void write_cues();
+  void write_plane(const VoOutput& vo, bool has_image);
+  [[nodiscard]] GroundReason reason_held(const VoOutput& vo, bool has_image) const;
+  [[nodiscard]] ScaleEstimate scale() const;
+  [[nodiscard]] RoadShape road_shape() const;
+
+  GroundConfig config;
+  double camera_height_m;
+  ImageRing ring;
+  DenseCue dense_cue;
+  PointsCue points_cue;
+  FloorCovariance covariance;
+  PlaneFilter filter;
+  EgoMotion ego;
+  std::int32_t scale_epoch = 0;
+  GroundOutput out;
+
+  /// What this frame brought; cleared at its begin.
+  struct Frame {
+    const Pyramid* image = nullptr;
+    Travel travel;
+    bool searched = false;  ///< the baseline was long enough to look for cues
+    Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< expected
+    double height = 0.0;                                    ///< expected [vo]
+    DenseObservation dense;
+    PointsObservation points;
+    CueStatus dense_status = CueStatus::kAbsent;
+    CueStatus points_status = CueStatus::kAbsent;
+    double var_before = 0.0;  ///< of ln h, before the cues
+
+    [[nodiscard]] bool height_measured() const {
+      return dense_status == CueStatus::kUsed || points_status == CueStatus::kUsed;
+    }
+    [[nodiscard]] bool height_refused() const {
+      return dense_status == CueStatus::kGated || points_status == CueStatus::kGated;
+    }
+  };
+  Frame frame;
+};
+
+GroundEstimator::GroundEstimator(const GroundConfig& config, const CameraModel& camera)
+    : impl_(std::make_unique<Impl>(config, camera)) {}
+
+GroundEstimator::~GroundEstimator() = default;
+
+const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe& probe) {
+  Impl& m = *impl_;
+  const VoOutput& vo = *input.vo;
+  probe.begin();
+  m.frame = Impl::Frame{};
+  m.out.capture_us = vo.capture_us;
+  m.out.seq = vo.seq;
+
+  m.take_image(input);
+  probe.mark("pyramid");
+  m.follow_scale_epoch(vo);
+  m.measure_cues(vo, probe);
+  m.fuse();
+  m.write_cues();
+  m.write_plane(vo, m.frame.image != nullptr);
+  probe.mark("fuse");
+  const Eigen::Vector3d normal =
+      m.filter.started() ? m.filter.normal() : Eigen::Vector3d(Eigen::Vector3d::UnitY());
+  m.ego.update(vo, m.scale(), normal, &m.out.ego);
+  probe.mark("ego");
+  return m.out;
+}
+
+/// A car that stands shows the same image again and again: keep the older views instead.
+void GroundEstimator::Impl::take_image(const GroundInput& input) {
+  if (!ring.fits(input.image)) return;
+  const bool stands = input.vo->status == VoStatus::kStandstill && ring.newest() != nullptr;
+  frame.image = stands ? ring.newest() : &ring.push(input.vo->seq, input.image);
+}
+
+void GroundEstimator::Impl::follow_scale_epoch(const VoOutput& vo) {
+  if (vo.scale_epoch == scale_epoch) return;
+  scale_epoch = vo.scale_epoch;
+  if (filter.started()) filter.change_unit(vo.scale_carry_std);
+}
+
+void GroundEstimator::Impl::measure_cues(const VoOutput& vo, StageProbe& probe) {
+  const bool prepared = prepare_plane(vo);
+  if (prepared) measure_dense(vo);
+  probe.mark("dense");
+  if (prepared) measure_points(vo);
+  probe.mark("points");
+}
+
+/// Predicts the plane and decides whether this frame can measure it.
+bool GroundEstimator::Impl::prepare_plane(const VoOutput& vo) {
+  const bool turned = vo.status == VoStatus::kOk || vo.status == VoStatus::kRotationOnly ||
+                      vo.status == VoStatus::kCoasting;
+  if (!turned) return false;
+  frame.travel = measure_travel(vo);
+  if (filter.started()) {
+    const double step = vo.status == VoStatus::kRotationOnly ? 0.0 : frame.travel.step;
+    filter.predict(vo.T_prev_cam.R, step / filter.height());
+  }
+  frame.var_before = filter.started() ? filter.cov()(2, 2) : 0.0;
+  if (vo.status != VoStatus::kOk || !frame.travel.valid) return false;
+
+  const double n1 = filter.started() ? filter.state()(0) : 0.0;
+  frame.normal_cam = normal_across(frame.travel.direction, n1);
+  if (filter.started()) {
+    frame.height = filter.height();
+  } else {
+    PointsRequest request{frame.normal_cam, 0.0, kMinPointRaySlope, road_shape()};
+    const PointsObservation first = points_cue.measure(vo, request);
+    const bool enough = first.ok && first.num_inliers >= kLeastPointsToStart;
+    frame.height =
+        enough ? std::exp(first.ln_height) : points_cue.rough_height(vo, frame.normal_cam);
+  }
+  frame.searched =
+      frame.height > 0.0 && frame.travel.chord_length > kShortestChordRatio * frame.height;
+  return frame.searched;
+}
+
+RoadShape GroundEstimator::Impl::road_shape() const {
+  return {config.road_near_m / camera_height_m, config.road_far_m / camera_height_m,
+          config.road_half_width_m / camera_height_m, frame.travel.curvature};
+}
+
+void GroundEstimator::Impl::measure_dense(const VoOutput& vo) {
+  if (frame.image == nullptr) return;
+  const ImagePairs pairs = choose_image_pairs(vo, ring, frame.height);
+  if (pairs.empty()) return;
+  const bool settled = filter.started() && filter.ln_height_std() < kSettledLnStd;
+  const DenseRequest request{frame.normal_cam, frame.height, settled ? kSweepSettled : kSweepWide,
+                             road_shape()};
+  frame.dense = dense_cue.measure(*frame.image, pairs, request);
+  const bool good = frame.dense.ok && covariance.dense_quality(frame.dense) >= kLeastDenseQuality;
+  frame.dense_status = good ? CueStatus::kUsed : CueStatus::kFailed;
+}
+
+void GroundEstimator::Impl::measure_points(const VoOutput& vo) {
+  const bool refined = frame.dense_status == CueStatus::kUsed && !filter.started();
+  const double height = refined ? 1.0 / frame.dense.q.norm() : frame.height;
+  const PointsRequest request{frame.normal_cam, height, kMinPointRaySlope, road_shape()};
+  frame.points = points_cue.measure(vo, request);
+  if (frame.points.num_candidates == 0) return;
+  const bool good = frame.points.ok && frame.points.num_inliers >= kLeastPoints;
+  frame.points_status = good ? CueStatus::kUsed : CueStatus::kFailed;
+}
+
+/// First estimate: the dense cue's, else that of many agreeing points.
+void GroundEstimator::Impl::start_filter() {
+  if (frame.dense_status == CueStatus::kUsed) {
+    filter.start(frame.normal_cam, std::log(height_given_normal(frame.dense, frame.normal_cam)));
+  } else if (frame.points_status == CueStatus::kUsed &&
+             frame.points.num_inliers >= kLeastPointsToStart) {
+    filter.start(frame.normal_cam, frame.points.ln_height);
+  }
+}
+
+void GroundEstimator::Impl::fuse() {
+  if (!frame.searched) return;
+  if (!filter.started()) start_filter();
+  if (!filter.started()) return;
+  filter.observe_level_roll();
+  filter.observe_travel(frame.travel.direction, covariance.travel(frame.travel));
+  if (frame.dense_status == CueStatus::kUsed &&
+      !filter.observe_plane(state_of_plane(frame.dense.q), covariance.dense(frame.dense))) {
+    frame.dense_status = CueStatus::kGated;
+  }
+  if (frame.points_status == CueStatus::kUsed &&
+      !filter.observe_point(frame.points.centre, covariance.points(frame.points))) {
+    frame.points_status = CueStatus::kGated;
+  }
+  filter.end_frame(frame.height_measured(), frame.height_refused());
+}
+
+void GroundEstimator::Impl::write_cues() {
+  out.plane = PlaneOutput{};
+  out.plane.cues.fill(absent_cue());
+  CueObservation& dense = out.plane.cues[kCueDense];
+  dense.status = frame.dense_status;
+  if (frame.dense.ok) {
+    const Eigen::Vector3d state = state_of_plane(frame.dense.q);
+    const Eigen::Matrix3d cov = covariance.dense(frame.dense);
+    const double height = std::exp(state(2));
+    dense = {
+        frame.dense_status,          height,    state(0),  state(1),
+        height * height * cov(2, 2), cov(0, 0), cov(1, 1), covariance.dense_quality(frame.dense)};
+  }
+  CueObservation& points = out.plane.cues[kCuePoints];
+  points.status = frame.points_status;
+  if (frame.points.ok) {
+    points.height = std::exp(frame.points.ln_height);
+    points.height_var = points.height * points.height * covariance.points(frame.points);
+    points.quality = covariance.points_quality(frame.points);
+  }
+}
+
+/// height_m: the heights that this frame's cues saw, weighted and seen along the fused normal,
+/// times the filtered scale. It equals the nominal camera height when the frame agrees with the
+/// filter, and differs with the road under the camera and with the cues' noise.
+void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
+  PlaneOutput& plane = out.plane;
+  if (vo.status == VoStatus::kLost) {
+    plane.status = GroundStatus::kInvalid;
+    plane.reason = GroundReason::kVoLost;
+    return;
+  }
+  if (!filter.started()) {
+    plane.status = GroundStatus::kInitializing;
+    plane.reason = reason_held(vo, has_image);
+    return;
+  }
+  const bool measured = frame.height_measured();
+  plane.status = measured ? GroundStatus::kOk : GroundStatus::kHeld;
+  plane.reason = measured && has_image ? GroundReason::kNone : reason_held(vo, has_image);
+  plane.normal_cam = filter.normal();
+  plane.pitch_rad = pitch_of(plane.normal_cam);
+  plane.roll_rad = roll_of(plane.normal_cam);
+
+  double information = 0.0;
+  double sum = 0.0;
+  const auto add = [&](double ln_height, double var) {
+    information += 1.0 / var;
+    sum += ln_height / var;
+  };
+  if (frame.dense_status == CueStatus::kUsed) {
+    add(std::log(height_given_normal(frame.dense, plane.normal_cam)),
+        covariance.dense(frame.dense)(2, 2));
+  }
+  if (frame.points_status == CueStatus::kUsed) {
+    add(std::log(plane.normal_cam.dot(frame.points.centre)), covariance.points(frame.points));
+  }
+  const double ln_ratio = measured ? sum / information - filter.state()(2) : 0.0;
+  plane.height_m = camera_height_m * std::exp(ln_ratio);
+
+  const Eigen::Matrix2d J = angles_jacobian(plane.normal_cam);
+  plane.cov.topLeftCorner<2, 2>() = J * filter.cov().topLeftCorner<2, 2>() * J.transpose();
+  plane.cov(2, 2) = filter.cov()(2, 2) + (measured ? 1.0 / information : 0.0);
+}
+
+GroundReason GroundEstimator::Impl::reason_held(const VoOutput& vo, bool has_image) const {
+  if (vo.status == VoStatus::kInitializing || vo.status == VoStatus::kCoasting) {
+    return GroundReason::kVoNotReady;
+  }
+  if (vo.status == VoStatus::kStandstill) return GroundReason::kStandstill;
+  if (!has_image) return GroundReason::kImageMissing;
+  if (!frame.searched) return GroundReason::kLowBaseline;
+  return frame.height_refused() ? GroundReason::kCuesRejected : GroundReason::kNoCue;
+}
+
+ScaleEstimate GroundEstimator::Impl::scale() const {
+  ScaleEstimate scale;
+  scale.known = filter.started();
+  if (!scale.known) return scale;
+  scale.measured_now = frame.height_measured();
+  scale.log_scale = std::log(camera_height_m) - filter.state()(2);
+  scale.var = filter.cov()(2, 2);
+  if (frame.var_before > 0.0) {
+    scale.kept_ratio = std::clamp(scale.var / frame.var_before, 0.0, 1.0);
+  }
+  return scale;
+}
+
+}  // namespace plumb

@@ -1,0 +1,89 @@
+#include "modules/ground/ground_node.hpp"
+
+#include <utility>
+
+namespace plumb {
+
+GroundNode::GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink)
+    : config_(config), probe_(probe), sink_(std::move(sink)) {}
+
+const char* GroundNode::take_calibration(const camera_calibration_t& message) {
+  CameraModel camera;
+  if (const char* why = from_wire(message, &camera)) return why;
+  if (calibrated())
+    return same_camera(camera, camera_)
+               ? nullptr
+               : "calibration differs from the first one; restart to use it";
+  camera_ = camera;
+  decoder_.emplace(camera.width_px, camera.height_px);
+  images_.emplace(camera.width_px, camera.height_px);
+  estimator_.emplace(config_, camera);
+  return nullptr;
+}
+
+const char* GroundNode::take_image(std::span<const std::uint8_t> image_bytes) {
+  ImageFrame frame;
+  if (const char* why = read_image(image_bytes, &frame)) return why;
+  if (losses_.take(frame.seq) == SeqStep::kRepeat) return "image came twice";
+  if (!calibrated()) return "image came before a calibration";
+  if (const char* why = decoder_->check(frame)) return why;
+  if (waiting_ && vo_.seq == frame.seq && vo_.capture_us == frame.capture_us)
+    return process(&frame);
+  return images_->put(frame) ? nullptr : "compressed image is larger than the image itself";
+}
+
+const char* GroundNode::take_motion(const vo_motion_t& message) {
+  expire();
+  if (const char* why = from_wire(message, &vo_)) return why;
+  count_lost_motion(message);
+  if (!calibrated()) {
+    GroundOutput output;
+    output.capture_us = vo_.capture_us;
+    output.seq = vo_.seq;
+    output.plane.reason = GroundReason::kNoCalibration;
+    output.ego.reason = VoReason::kNoCalibration;
+    publish(output);
+    return nullptr;
+  }
+  const ImageFrame* frame = images_->find(vo_.seq, vo_.capture_us);
+  if (frame == nullptr) {
+    waiting_ = true;
+    return nullptr;
+  }
+  const char* refused = process(frame);
+  images_->drop_through(frame);
+  return refused;
+}
+
+void GroundNode::expire() {
+  if (waiting_) (void)process(nullptr);
+}
+
+// prev_seq names the image VO had before: its motion must have come here too.
+void GroundNode::count_lost_motion(const vo_motion_t& message) {
+  if (any_motion_ && message.prev_seq > last_motion_seq_ && message.prev_seq < message.seq)
+    ++num_motions_lost_;
+  any_motion_ = true;
+  last_motion_seq_ = message.seq;
+}
+
+const char* GroundNode::process(const ImageFrame* frame) {
+  waiting_ = false;
+  probe_->begin();
+  GroundInput input{&vo_, {}};
+  const char* refused = nullptr;
+  if (frame != nullptr) refused = decoder_->decode(*frame, &input.image);
+  if (input.image.empty()) ++num_unpaired_;
+  probe_->mark("decode");
+  publish(estimator_->update(input, *probe_));
+  return refused;
+}
+
+void GroundNode::publish(const GroundOutput& output) {
+  to_wire(output, &plane_);
+  to_wire(output, &ego_);
+  probe_->mark("to_wire");
+  sink_(plane_, ego_);
+}
+
+}  // namespace plumb

@@ -1,0 +1,37 @@
+/// Copies of the newest images, waiting for the VO motion of the same frame.
+///
+/// Memory   kSlots images at construction (30 MB for KITTI); when all are taken the oldest gives way.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "modules/imaging/image_wire.hpp"
+
+namespace plumb {
+
+class PendingImages {
+ public:
+  /// As many as the CAMERA queue holds: plumb-vo cannot be further behind without losing images itself.
+  static constexpr std::size_t kSlots = 64;
+
+  PendingImages(int width_px, int height_px);
+
+  /// False when the image does not fit a slot.
+  [[nodiscard]] bool put(const ImageFrame& frame);
+  /// The image of that number and time, null when it is not here. Valid until the next put().
+  [[nodiscard]] const ImageFrame* find(std::int64_t seq, std::int64_t capture_us) const;
+  /// Forgets `frame`, which find() returned, and all that came before it.
+  void drop_through(const ImageFrame* frame);
+
+ private:
+  std::size_t slot_bytes_;
+  std::vector<std::uint8_t> storage_;
+  std::array<ImageFrame, kSlots> frames_{};  ///< oldest first, beginning at first_
+  std::size_t first_ = 0;
+  std::size_t size_ = 0;
+};
+
+}  // namespace plumb

@@ -1,0 +1,152 @@
+#include "modules/ground/plane_filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace plumb {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+constexpr double kStartTiltStd = 1.0 * kDegree;
+constexpr double kStartLnHeightStd = 0.1;
+
+// Normal: pose noise per frame, and road curvature plus suspension per reference step (0.6 camera
+// heights).
+constexpr double kTurnNoise = 0.05 * kDegree;
+constexpr double kCurvatureNoise = 0.08 * kDegree;
+// ln h: drift of VO's scale per reference step.
+constexpr double kScaleDrift = 0.004;
+constexpr double kReferenceStepRatio = 0.6;
+constexpr double kLargestNoiseSteps = 2.0;
+
+// Cars do not lean much against their road; keeps roll bounded when the road shows nothing.
+constexpr double kLevelRollStd = 4.5 * kDegree;
+
+constexpr double kNu = 4.0;           // Student-t degrees of freedom of the innovations
+constexpr double kScalarGate = 16.0;  // e^2 / S
+constexpr double kPlaneGate = 8.0;    // the same per degree of freedom
+constexpr int kLockOutFrames = 10;
+constexpr double kLockOutLnStd = 0.15;
+
+}  // namespace
+
+Eigen::Vector3d normal_of_state(const Eigen::Vector3d& x) {
+  return {x(0), std::sqrt(std::max(0.1, 1.0 - x(0) * x(0) - x(1) * x(1))), x(1)};
+}
+
+Eigen::Matrix<double, 3, 2> normal_jacobian(const Eigen::Vector3d& x) {
+  const double n2 = normal_of_state(x).y();
+  Eigen::Matrix<double, 3, 2> J;
+  J << 1.0, 0.0, -x(0) / n2, -x(1) / n2, 0.0, 1.0;
+  return J;
+}
+
+Eigen::Matrix3d plane_jacobian(const Eigen::Vector3d& x) {
+  const double inverse_height = std::exp(-x(2));
+  Eigen::Matrix3d J;
+  J.leftCols<2>() = normal_jacobian(x);
+  J.col(2) = -normal_of_state(x);
+  return inverse_height * J;
+}
+
+double PlaneFilter::height() const { return std::exp(x_(2)); }
+
+double PlaneFilter::ln_height_std() const { return std::sqrt(P_(2, 2)); }
+
+void PlaneFilter::start(const Eigen::Vector3d& normal, double ln_height) {
+  started_ = true;
+  num_refused_frames_ = 0;
+  x_ << normal.x(), normal.z(), ln_height;
+  P_.setZero();
+  P_(0, 0) = P_(1, 1) = kStartTiltStd * kStartTiltStd;
+  P_(2, 2) = kStartLnHeightStd * kStartLnHeightStd;
+}
+
+void PlaneFilter::change_unit(double ln_ratio_std) {
+  num_refused_frames_ = 0;
+  if (std::isnan(ln_ratio_std)) {
+    started_ = false;
+    return;
+  }
+  P_(2, 2) += ln_ratio_std * ln_ratio_std;
+}
+
+void PlaneFilter::predict(const Eigen::Matrix3d& R_prev_cam, double step_ratio) {
+  // n_cam = R_prev_cam^T n_prev, restricted to (n1, n3).
+  const Eigen::Matrix3d R_cam_prev = R_prev_cam.transpose();
+  const Eigen::Matrix<double, 3, 2> dn = R_cam_prev * normal_jacobian(x_);
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  F.topLeftCorner<1, 2>() = dn.row(0);
+  F.block<1, 2>(1, 0) = dn.row(2);
+  const Eigen::Vector3d n = R_cam_prev * normal();
+  x_(0) = n.x();
+  x_(1) = n.z();
+  const double steps = std::min(kLargestNoiseSteps, step_ratio / kReferenceStepRatio);
+  const double tilt = kTurnNoise + kCurvatureNoise * steps;
+  P_ = F * P_ * F.transpose();
+  P_(0, 0) += tilt * tilt;
+  P_(1, 1) += tilt * tilt;
+  P_(2, 2) += kScaleDrift * kScaleDrift * steps;
+}
+
+bool PlaneFilter::update_scalar(const Eigen::RowVector3d& H, double residual, double var,
+                                bool robust) {
+  double S = H * P_ * H.transpose() + var;
+  if (robust) {
+    const double e2 = residual * residual / S;
+    if (e2 > kScalarGate) return false;
+    var *= (kNu + e2) / (kNu + 1.0);
+    S = H * P_ * H.transpose() + var;
+  }
+  const Eigen::Vector3d K = P_ * H.transpose() / S;
+  x_ += K * residual;
+  const Eigen::Matrix3d IKH = Eigen::Matrix3d::Identity() - K * H;
+  P_ = IKH * P_ * IKH.transpose() + var * K * K.transpose();
+  return true;
+}
+
+void PlaneFilter::observe_level_roll() {
+  (void)update_scalar(Eigen::RowVector3d::UnitX(), -x_(0), kLevelRollStd * kLevelRollStd, false);
+}
+
+void PlaneFilter::observe_travel(const Eigen::Vector3d& direction, double var) {
+  Eigen::RowVector3d H = Eigen::RowVector3d::Zero();
+  H.head<2>() = direction.transpose() * normal_jacobian(x_);
+  (void)update_scalar(H, -normal().dot(direction), var, false);
+}
+
+bool PlaneFilter::observe_plane(const Eigen::Vector3d& state, const Eigen::Matrix3d& cov) {
+  const Eigen::Vector3d residual = state - x_;
+  Eigen::Matrix3d R = cov;
+  const double e2 = residual.dot((P_ + R).ldlt().solve(residual)) / 3.0;
+  if (e2 > kPlaneGate) return false;
+  R *= (kNu + e2) / (kNu + 1.0);
+  const Eigen::Matrix3d K = P_ * (P_ + R).inverse();
+  x_ += K * residual;
+  const Eigen::Matrix3d IK = Eigen::Matrix3d::Identity() - K;
+  P_ = IK * P_ * IK.transpose() + K * R * K.transpose();
+  return true;
+}
+
+bool PlaneFilter::observe_point(const Eigen::Vector3d& centre, double var) {
+  const double height = normal().dot(centre);
+  if (!(height > 0.0)) return false;
+  Eigen::RowVector3d H;
+  H.head<2>() = -(centre.transpose() * normal_jacobian(x_)) / height;
+  H(2) = 1.0;
+  return update_scalar(H, std::log(height) - x_(2), var, true);
+}
+
+void PlaneFilter::end_frame(bool any_used, bool any_refused) {
+  if (any_used) num_refused_frames_ = 0;
+  if (any_used || !any_refused) return;
+  if (++num_refused_frames_ < kLockOutFrames) return;
+  num_refused_frames_ = 0;
+  P_(2, 2) += kLockOutLnStd * kLockOutLnStd;
+}
+
+}  // namespace plumb

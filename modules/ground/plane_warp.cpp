@@ -1,0 +1,248 @@
+#include "modules/ground/plane_warp.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "modules/ground/lanes.hpp"
+
+namespace plumb {
+namespace {
+
+// Degrees of freedom of the residuals' Student-t distribution: w = (nu + 1) / (nu + r^2 / sigma^2).
+constexpr float kNu = 5.0F;
+constexpr float kNearestDepth = 0.1F;
+
+struct Homography {
+  float g[3][3];
+  float t[3];
+};
+
+Homography make_homography(const Se3& T_old_cam, const Eigen::Vector3d& q) {
+  const Eigen::Matrix3d G = T_old_cam.R + T_old_cam.t * q.transpose();
+  Homography h{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) h.g[i][j] = static_cast<float>(G(i, j));
+    h.t[i] = static_cast<float>(T_old_cam.t(i));
+  }
+  return h;
+}
+
+/// Where eight rays land in the older image.
+struct Landing {
+  Lanes xn;
+  Lanes yn;
+  Lanes inverse_depth;
+  Lanes fu;         ///< fraction of the column
+  Lanes fv;         ///< fraction of the row
+  IntLanes column;  ///< clamped into the image
+  IntLanes row;
+  IntLanes inside;  ///< all ones where the 4x4 neighbourhood is in the image
+};
+
+inline Lanes splat(float v) { return Lanes{} + v; }
+
+inline void land(const Homography& h, const LevelCamera& camera, const ImageView& image,
+                 const Lanes& x, const Lanes& y, Landing* out) {
+  const Lanes depth = h.g[2][0] * x + h.g[2][1] * y + h.g[2][2];
+  out->inverse_depth = 1.0F / depth;
+  out->xn = (h.g[0][0] * x + h.g[0][1] * y + h.g[0][2]) * out->inverse_depth;
+  out->yn = (h.g[1][0] * x + h.g[1][1] * y + h.g[1][2]) * out->inverse_depth;
+  const Lanes radial = 1.0F + camera.k1 * (out->xn * out->xn + out->yn * out->yn);
+  const Lanes u = camera.fx * out->xn * radial + camera.cx;
+  const Lanes v = camera.fy * out->yn * radial + camera.cy;
+  const float max_u = static_cast<float>(image.width_px - 3);
+  const float max_v = static_cast<float>(image.height_px - 3);
+  out->inside = (depth > kNearestDepth) & (u >= 1.0F) & (u < max_u) & (v >= 1.0F) & (v < max_v);
+  const Lanes safe_u = out->inside ? u : splat(1.0F);
+  const Lanes safe_v = out->inside ? v : splat(1.0F);
+  out->column = __builtin_convertvector(safe_u, IntLanes);
+  out->row = __builtin_convertvector(safe_v, IntLanes);
+  out->fu = safe_u - __builtin_convertvector(out->column, Lanes);
+  out->fv = safe_v - __builtin_convertvector(out->row, Lanes);
+}
+
+/// Byte `k` of each little-endian word as float.
+template <int k>
+inline void byte_of(const IntLanes& words, Lanes* out) {
+  *out = __builtin_convertvector((words >> (8 * k)) & 0xff, Lanes);
+}
+
+/// Bilinear value and central differences.
+struct Sample {
+  Lanes value;
+  Lanes du;
+  Lanes dv;
+};
+
+inline void gather_row(const ImageView& image, const Landing& at, int row_offset, IntLanes* words) {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const std::uint8_t* from = image.row(at.row[lane] + row_offset) + at.column[lane] - 1;
+    std::int32_t word = 0;
+    std::memcpy(&word, from, sizeof(word));
+    (*words)[lane] = word;
+  }
+}
+
+/// Interpolated between columns: at u - 1, u and u + 1.
+struct RowSample {
+  Lanes left;
+  Lanes centre;
+  Lanes right;
+};
+
+inline void sample_row(const ImageView& image, const Landing& at, int row_offset, RowSample* out) {
+  IntLanes words{};
+  gather_row(image, at, row_offset, &words);
+  Lanes c0, c1, c2, c3;
+  byte_of<0>(words, &c0);
+  byte_of<1>(words, &c1);
+  byte_of<2>(words, &c2);
+  byte_of<3>(words, &c3);
+  out->left = c0 + at.fu * (c1 - c0);
+  out->centre = c1 + at.fu * (c2 - c1);
+  out->right = c2 + at.fu * (c3 - c2);
+}
+
+inline void sample_with_gradient(const ImageView& image, const Landing& at, Sample* out) {
+  RowSample above, upper, lower, below;
+  sample_row(image, at, -1, &above);
+  sample_row(image, at, 0, &upper);
+  sample_row(image, at, 1, &lower);
+  sample_row(image, at, 2, &below);
+  out->value = upper.centre + at.fv * (lower.centre - upper.centre);
+  const Lanes slope_upper = upper.right - upper.left;
+  const Lanes slope_lower = lower.right - lower.left;
+  out->du = 0.5F * (slope_upper + at.fv * (slope_lower - slope_upper));
+  const Lanes rise_upper = lower.centre - above.centre;
+  const Lanes rise_lower = below.centre - upper.centre;
+  out->dv = 0.5F * (rise_upper + at.fv * (rise_lower - rise_upper));
+}
+
+inline void sample_value(const ImageView& image, const Landing& at, Lanes* out) {
+  RowSample upper, lower;
+  sample_row(image, at, 0, &upper);
+  sample_row(image, at, 1, &lower);
+  *out = upper.centre + at.fv * (lower.centre - upper.centre);
+}
+
+/// Lanes of the block at `i` that hold a pixel.
+inline IntLanes held(int i, int size) {
+  const IntLanes index = IntLanes{0, 1, 2, 3, 4, 5, 6, 7} + i;
+  return index < (IntLanes{} + size);
+}
+
+/// The twenty sums of the normal equations; J = (g x, g y, g, -I, -1).
+struct LaneSums {
+  Lanes hxx{}, hxy{}, hyy{}, hx{}, hy{}, h1{};    // q with q, each times g^2
+  Lanes hix{}, hiy{}, hi{}, h1x{}, h1y{}, h11{};  // q with gain, q with bias
+  Lanes hii{}, hi1{}, hww{};                      // gain, bias
+  Lanes bx{}, by{}, b1{}, bi{}, bb{};
+  Lanes square{}, count{};
+
+  void add(const Lanes& x, const Lanes& y, const Lanes& grey, const Lanes& g, const Lanes& r,
+           const Lanes& w) {
+    const Lanes wg = w * g, wgg = wg * g, wr = w * r, wgr = wg * r;
+    const Lanes wggx = wgg * x, wggy = wgg * y, wgi = wg * grey, wi = w * grey;
+    hxx += wggx * x, hxy += wggx * y, hyy += wggy * y, hx += wggx, hy += wggy, h1 += wgg;
+    hix += wgi * x, hiy += wgi * y, hi += wgi, h1x += wg * x, h1y += wg * y, h11 += wg;
+    hii += wi * grey, hi1 += wi, hww += w;
+    bx += wgr * x, by += wgr * y, b1 += wgr, bi += wr * grey, bb += wr;
+    square += wr * r;
+  }
+
+  void write(PairSums* out) const {
+    auto& H = out->H;
+    H(0, 0) = sum_lanes(hxx), H(0, 1) = sum_lanes(hxy), H(0, 2) = sum_lanes(hx);
+    H(1, 1) = sum_lanes(hyy), H(1, 2) = sum_lanes(hy), H(2, 2) = sum_lanes(h1);
+    H(0, 3) = -sum_lanes(hix), H(1, 3) = -sum_lanes(hiy), H(2, 3) = -sum_lanes(hi);
+    H(0, 4) = -sum_lanes(h1x), H(1, 4) = -sum_lanes(h1y), H(2, 4) = -sum_lanes(h11);
+    H(3, 3) = sum_lanes(hii), H(3, 4) = sum_lanes(hi1), H(4, 4) = sum_lanes(hww);
+    for (int i = 0; i < kNumPairParams; ++i) {
+      for (int j = 0; j < i; ++j) H(i, j) = H(j, i);
+    }
+    out->b << -sum_lanes(bx), -sum_lanes(by), -sum_lanes(b1), sum_lanes(bi), sum_lanes(bb);
+    out->weighted_square = sum_lanes(square);
+    out->num_pixels = static_cast<int>(std::lround(sum_lanes(count)));
+  }
+};
+
+}  // namespace
+
+PlaneWarp::PlaneWarp(const ImageView& old_image, const LevelCamera& camera, const Se3& T_old_cam)
+    : image_(old_image), camera_(camera), T_old_cam_(T_old_cam) {}
+
+void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
+                           const Photometric& photometric, double sigma_grey,
+                           PairSums* sums) const {
+  const Homography h = make_homography(T_old_cam_, q);
+  const float gain = static_cast<float>(1.0 + photometric.gain);
+  const float bias = static_cast<float>(photometric.bias);
+  const float inverse_var = static_cast<float>(1.0 / (sigma_grey * sigma_grey));
+  LaneSums lanes;
+  for (int i = 0; i < pixels.size; i += kLanes) {
+    Lanes x, y, grey;
+    load(pixels.x + i, &x);
+    load(pixels.y + i, &y);
+    load(pixels.grey + i, &grey);
+    Landing at;
+    land(h, camera_, image_, x, y, &at);
+    Sample old;
+    sample_with_gradient(image_, at, &old);
+    const Lanes r = old.value - gain * grey - bias;
+    // Chain rule along the epipolar line; the radial term's own slope, below 1 %, is left to
+    // iteration.
+    const Lanes g = at.inverse_depth * (camera_.fx * old.du * (h.t[0] - at.xn * h.t[2]) +
+                                        camera_.fy * old.dv * (h.t[1] - at.yn * h.t[2]));
+    const IntLanes usable = at.inside & held(i, pixels.size);
+    const Lanes w = usable ? (kNu + 1.0F) / (kNu + r * r * inverse_var) : splat(0.0F);
+    lanes.add(x, y, grey, usable ? g : splat(0.0F), r, w);
+    lanes.count += usable ? splat(1.0F) : splat(0.0F);
+  }
+  lanes.write(sums);
+}
+
+Likeness PlaneWarp::compare(const RoadPixels& pixels, const Eigen::Vector3d& q) const {
+  const Homography h = make_homography(T_old_cam_, q);
+  alignas(32) std::array<float, kMaxRoadPixels + kLanes> difference;
+  Lanes count{}, sum_a{}, sum_b{}, sum_aa{}, sum_bb{}, sum_ab{};
+  const Lanes zero{};
+  for (int i = 0; i < pixels.size; i += kLanes) {
+    Lanes x, y, grey, old;
+    load(pixels.x + i, &x);
+    load(pixels.y + i, &y);
+    load(pixels.grey + i, &grey);
+    Landing at;
+    land(h, camera_, image_, x, y, &at);
+    sample_value(image_, at, &old);
+    const IntLanes usable = at.inside & held(i, pixels.size);
+    const Lanes a = usable ? old : zero;
+    const Lanes b = usable ? grey : zero;
+    count += usable ? splat(1.0F) : zero;
+    sum_a += a, sum_b += b, sum_aa += a * a, sum_bb += b * b, sum_ab += a * b;
+    store(usable ? old - grey : splat(std::nanf("")), difference.data() + i);
+  }
+  Likeness out;
+  out.num_pixels = static_cast<int>(std::lround(sum_lanes(count)));
+  if (out.num_pixels == 0) return out;
+  const double n = out.num_pixels;
+  const double mean_a = sum_lanes(sum_a) / n;
+  const double mean_b = sum_lanes(sum_b) / n;
+  const float mean = static_cast<float>(mean_a - mean_b);
+  Lanes absolute{};
+  for (int i = 0; i < pixels.size; i += kLanes) {
+    Lanes d;
+    load(difference.data() + i, &d);
+    const Lanes centred = d - mean;
+    const Lanes size = centred < 0.0F ? -centred : centred;
+    absolute += (d == d) ? size : zero;
+  }
+  out.sad = sum_lanes(absolute) / n;
+  const double var_a = sum_lanes(sum_aa) / n - mean_a * mean_a;
+  const double var_b = sum_lanes(sum_bb) / n - mean_b * mean_b;
+  const double cov = sum_lanes(sum_ab) / n - mean_a * mean_b;
+  out.ncc = cov / std::sqrt(var_a * var_b + 1e-9);
+  return out;
+}
+
+}  // namespace plumb
