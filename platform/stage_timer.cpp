@@ -32,11 +32,11 @@ double DurationHistogram::quantile_us(double q) const {
 
 void StageTimer::begin() {
   stage_start_ns_ = monotonic_ns();
-  if (!in_frame_) frame_start_ns_ = stage_start_ns_;
   in_frame_ = true;
 }
 
 void StageTimer::mark(const char* name) {
+  if (!in_frame_) return;
   const std::int64_t now_ns = monotonic_ns();
   const double spent_us = static_cast<double>(now_ns - stage_start_ns_) * 1e-3;
   stage_start_ns_ = now_ns;
@@ -59,14 +59,15 @@ void StageTimer::mark(const char* name) {
 void StageTimer::end() {
   if (!in_frame_) return;
   in_frame_ = false;
+  total_.last_us = 0.0;
   for (std::size_t i = 0; i < num_stages_; ++i) {
     Stage& stage = stages_[i];
     if (stage.ran) stage.histogram.add(stage.pending_us);
     stage.last_us = stage.pending_us;
+    total_.last_us += stage.pending_us;
     stage.pending_us = 0.0;
     stage.ran = false;
   }
-  total_.last_us = static_cast<double>(monotonic_ns() - frame_start_ns_) * 1e-3;
   total_.histogram.add(total_.last_us);
   ++num_frames_;
 }

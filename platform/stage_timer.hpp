@@ -40,9 +40,9 @@ struct StageStats {
   double last_us = 0.0;  ///< in the newest frame; 0 when the stage did not run in it
 };
 
-/// begin(), mark() per stage, end(): one frame. A stage marked twice in a frame counts with its
-/// sum. Further begin() calls inside a frame restart the running stage only, so a caller may time
-/// work of its own around a library that begins by itself.
+/// begin(), mark() per stage, end(): one frame. A stage marked twice in a frame counts with its sum. A begin() inside
+/// a frame restarts the running stage only, so a caller may time work of its own around a library that begins by
+/// itself; a frame that is given up needs no end().
 class StageTimer final : public StageProbe {
  public:
   static constexpr std::size_t kMaxStages = 16;
@@ -75,7 +75,6 @@ class StageTimer final : public StageProbe {
   std::size_t num_stages_ = 0;
   std::int64_t num_frames_ = 0;
   std::int64_t num_refused_ = 0;
-  std::int64_t frame_start_ns_ = 0;
   std::int64_t stage_start_ns_ = 0;
   bool in_frame_ = false;
 };
