@@ -1,0 +1,41 @@
+/// Test images: smooth structure with known values everywhere, and noise.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <random>
+
+#include "modules/imaging/image_view.hpp"
+
+namespace plumb::test {
+
+inline ImageView view_of(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step[0])};
+}
+
+/// Waves a few pixels long in every direction: bilinear sampling of it stays within a grey level.
+inline cv::Mat waves(int width_px, int height_px) {
+  cv::Mat image(height_px, width_px, CV_8U);
+  for (int v = 0; v < height_px; ++v) {
+    for (int u = 0; u < width_px; ++u) {
+      const double grey =
+          128.0 + 50.0 * std::sin(0.21 * u + 0.07 * v) + 50.0 * std::cos(0.17 * v - 0.05 * u);
+      image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(std::lround(grey));
+    }
+  }
+  return image;
+}
+
+inline cv::Mat noise(int rows, int bytes_per_row, unsigned seed) {
+  cv::Mat image(rows, bytes_per_row, CV_8U);
+  std::mt19937 random(seed);
+  for (int v = 0; v < rows; ++v) {
+    for (int u = 0; u < bytes_per_row; ++u) {
+      image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(random() & 0xFFU);
+    }
+  }
+  return image;
+}
+
+}  // namespace plumb::test
