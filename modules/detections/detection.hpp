@@ -1,0 +1,67 @@
+/// What a detector saw in one image: boxes, classes, scores and the raw boxes behind them.
+///
+/// Frames   img: u right, v down, (0,0) is the centre of the upper left pixel.
+/// Memory   kMaxDetections boxes in place.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "platform/fixed_vector.hpp"
+
+namespace plumb {
+
+inline constexpr std::size_t kMaxDetections = 64;
+inline constexpr std::size_t kMaxCandidates = 16;
+
+/// Same numbers as detection_t.CLASS_*.
+enum class ObjectClass : std::int8_t {
+  kUnknown = 0,
+  kCar = 1,
+  kVan = 2,
+  kTruck = 3,
+  kBus = 4,
+  kPedestrian = 5,
+  kCyclist = 6,
+};
+inline constexpr std::size_t kNumObjectClasses = 7;
+
+/// Same numbers as detection_t.occluded.
+enum class Occlusion : std::int8_t { kVisible = 0, kPartly = 1, kLargely = 2, kUnknown = 3 };
+
+struct Box {
+  double left_px = 0.0;
+  double top_px = 0.0;
+  double right_px = 0.0;
+  double bottom_px = 0.0;
+
+  [[nodiscard]] double width_px() const { return right_px - left_px; }
+  [[nodiscard]] double height_px() const { return bottom_px - top_px; }
+  [[nodiscard]] double centre_u_px() const { return 0.5 * (left_px + right_px); }
+};
+
+/// One raw box of the detector before it suppressed its neighbours.
+struct Candidate {
+  Box box;
+  double score = 0.0;
+};
+
+struct Detection {
+  std::int32_t track_id = -1;  ///< -1: the detector does not track
+  ObjectClass object_class = ObjectClass::kUnknown;
+  double score = 0.0;            ///< [0, 1]
+  Box box;                       ///< not empty
+  double truncated_ratio = 0.0;  ///< 0 inside the image .. 1 outside; NaN when not known
+  Occlusion occluded = Occlusion::kUnknown;
+  FixedVector<Candidate, kMaxCandidates> candidates;
+};
+
+struct DetectionFrame {
+  std::int64_t capture_us = 0;
+  std::int64_t seq = 0;
+  FixedVector<Detection, kMaxDetections> detections;
+};
+
+}  // namespace plumb
