@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -73,10 +74,9 @@ struct ConfigFile::Impl {
   void check_range(const char* key, const toml::node& node, double value, double low,
                    double high) const {
     if (value >= low && value <= high) return;  // false for NaN
-    const bool whole = node.is_integer() && std::floor(low) == low && std::floor(high) == high;
     refuse(key, node,
-           "is outside [" + ConfigWriter::number(low, whole || std::floor(low) == low) + ", " +
-               ConfigWriter::number(high, whole || std::floor(high) == high) + "]");
+           "is outside [" + ConfigWriter::number(low, true) + ", " +
+               ConfigWriter::number(high, true) + "]");
   }
 };
 
@@ -206,9 +206,27 @@ std::string ConfigWriter::number(double value, bool whole) {
 }
 
 std::string ConfigWriter::quoted(const std::string& text) {
-  std::ostringstream out;
-  out << toml::value<std::string>(text);
-  return out.str();
+  std::string out("\"");
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out.append(1, '\\').append(1, c);
+    } else if (code < 0x20 || code == 0x7F) {
+      std::array<char, 8> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\u%04X", static_cast<unsigned>(code));
+      out.append(escape.data());
+    } else {
+      out.append(1, c);
+    }
+  }
+  return out.append(1, '"');
+}
+
+void ConfigWriter::add_number(const char* key, double value, double low, double high, bool whole,
+                              const char* meaning) {
+  std::string range("[");
+  range.append(number(low, true)).append(", ").append(number(high, true)).append("]");
+  add(key, number(value, whole), meaning, range);
 }
 
 void ConfigWriter::add(const std::string& key, const std::string& value, const std::string& meaning,

@@ -74,10 +74,8 @@ class ConfigWriter {
   template <typename T, typename L, typename H>
   requires std::is_arithmetic_v<L>
   void operator()(const char* key, const T& value, L low, H high, const char* meaning) {
-    const bool whole = std::is_integral_v<T>;
-    add(key, number(static_cast<double>(value), whole), meaning,
-        "[" + number(static_cast<double>(low), whole) + ", " +
-            number(static_cast<double>(high), whole) + "]");
+    add_number(key, static_cast<double>(value), static_cast<double>(low), static_cast<double>(high),
+               std::is_integral_v<T>, meaning);
   }
   void operator()(const char* key, const bool& value, const char* meaning) {
     add(key, value ? "true" : "false", meaning, "true or false");
@@ -91,11 +89,13 @@ class ConfigWriter {
   /// The whole text: one section per key prefix, in order of first appearance.
   [[nodiscard]] std::string text() const;
 
-  /// Shortest text that reads back to the same number; `whole` numbers have no decimal point.
+  /// Shortest text that reads back to the same number; `whole`: without exponent, and without ".0".
   static std::string number(double value, bool whole);
   static std::string quoted(const std::string& text);
 
  private:
+  void add_number(const char* key, double value, double low, double high, bool whole,
+                  const char* meaning);
   void add(const std::string& key, const std::string& value, const std::string& meaning,
            const std::string& range);
   std::vector<std::pair<std::string, std::string>> sections_;  ///< name, lines
