@@ -61,7 +61,7 @@ CameraModel published_model(const CameraConfig& config, int width_px, int height
 
 std::string why_unusable(const CameraConfig& config, int width_px, int height_px,
                          const std::uint8_t* mask_bytes) {
-  constexpr int kMinSide = 16;
+  constexpr int kMinSide = 64;  // of what the estimators take
   constexpr double kMaxCovered = 0.9;
   const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px);
   if (width_px < kMinSide || height_px < kMinSide) return "an image of " + size + " is too small";
@@ -70,6 +70,9 @@ std::string why_unusable(const CameraConfig& config, int width_px, int height_px
   }
   if (config.cx_px >= width_px || config.cy_px >= height_px) {
     return "camera.cx_px, camera.cy_px is outside the image of " + size;
+  }
+  if (config.camera_height_m != 0.0 && config.camera_height_m < 0.3) {
+    return "camera.camera_height_m is neither 0 nor in [0.3, 4]";
   }
   const bool is_fisheye = config.distortion == "fisheye";
   if (is_fisheye && (config.p1 != 0.0 || config.p2 != 0.0)) {

@@ -1,0 +1,56 @@
+#include "modules/camera/camera_node.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "modules/imaging/image_wire.hpp"
+#include "platform/process.hpp"
+
+namespace plumb {
+namespace {
+
+/// The mask file's pixels, rows without gaps; empty without a file.
+cv::Mat read_mask(const CameraConfig& config, const std::filesystem::path& folder) {
+  if (config.mask_file.empty()) return {};
+  const std::string file = (folder / config.mask_file).string();
+  cv::Mat mask = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  if (mask.empty()) throw UsageError("camera.mask_file: cannot read " + file + " as PGM or PNG");
+  if (mask.cols != config.width_px || mask.rows != config.height_px) {
+    throw UsageError("camera.mask_file: " + file + " is " + std::to_string(mask.cols) + "x" +
+                     std::to_string(mask.rows) + ", the images are " +
+                     std::to_string(config.width_px) + "x" + std::to_string(config.height_px));
+  }
+  return mask;
+}
+
+FrontEnd make_front_end(const CameraConfig& config, const std::filesystem::path& folder) {
+  const cv::Mat mask = read_mask(config, folder);
+  const std::string why = why_unusable(config, config.width_px, config.height_px, mask.data);
+  if (!why.empty()) throw UsageError(why);
+  return {config, config.width_px, config.height_px, mask.data};
+}
+
+}  // namespace
+
+CameraNode::CameraNode(const CameraConfig& config, const std::filesystem::path& folder,
+                       StageProbe* probe)
+    : model_(published_model(config, config.width_px, config.height_px)),
+      probe_(probe),
+      front_end_(make_front_end(config, folder)),
+      published_(static_cast<std::size_t>(config.width_px) *
+                 static_cast<std::size_t>(config.height_px)) {}
+
+const image_t& CameraNode::take(const GreyFrame& frame) {
+  fault_ = front_end_.process(frame.image, published_.data(), probe_);
+  const ImageView image{published_.data(), model_.width_px, model_.height_px, model_.width_px};
+  to_wire(frame.capture_us, frame.seq, image, &message_);
+  probe_->mark("to_wire");
+  return message_;
+}
+
+camera_calibration_t CameraNode::calibration(std::int64_t capture_us) const {
+  return to_wire(model_, capture_us);
+}
+
+std::size_t CameraNode::max_bytes() const { return max_image_bytes(published_.size()); }
+
+}  // namespace plumb

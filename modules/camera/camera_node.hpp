@@ -1,0 +1,44 @@
+/// Everything plumb-camera does between a grey frame and the messages CAMERA and CAMERA_CALIBRATION.
+///
+/// Memory   images and tables are allocated at construction.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "modules/camera/camera_config.hpp"
+#include "modules/camera/front_end.hpp"
+#include "modules/camera/recorded_source.hpp"
+#include "modules/geometry/camera_model.hpp"
+#include "modules/geometry/stage_probe.hpp"
+#include "plumb/camera_calibration_t.hpp"
+#include "plumb/image_t.hpp"
+
+namespace plumb {
+
+class CameraNode {
+ public:
+  /// `config` is complete: size and focal lengths are set. A relative camera.mask_file is looked for
+  /// in `folder`. Throws UsageError. `probe` outlives the node.
+  CameraNode(const CameraConfig& config, const std::filesystem::path& folder, StageProbe* probe);
+
+  /// The message of the frame; until the next call. @pre the frame has the configured size
+  [[nodiscard]] const image_t& take(const GreyFrame& frame);
+  [[nodiscard]] camera_calibration_t calibration(std::int64_t capture_us) const;
+
+  /// What is wrong with the newest images.
+  [[nodiscard]] ImageFault fault() const { return fault_; }
+  /// Largest encoding of CAMERA.
+  [[nodiscard]] std::size_t max_bytes() const;
+
+ private:
+  CameraModel model_;
+  StageProbe* probe_;
+  FrontEnd front_end_;
+  std::vector<std::uint8_t> published_;
+  image_t message_{};
+  ImageFault fault_ = ImageFault::kNone;
+};
+
+}  // namespace plumb

@@ -1,0 +1,36 @@
+/// Plays a recording at its own pace times a speed, then ends the process.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/camera/pacing.hpp"
+#include "modules/camera/publish_node.hpp"
+#include "modules/camera/recorded_source.hpp"
+#include "platform/counters.hpp"
+#include "platform/process.hpp"
+
+namespace plumb {
+
+class PlayerNode {
+ public:
+  /// `speed` 0 is as fast as it goes. All three outlive the player.
+  PlayerNode(Process& process, RecordedSource& source, PublishNode& output, double speed);
+
+ private:
+  /// Behind its schedule by this much a frame counts as late.
+  static constexpr std::int64_t kLate_us = 100'000;
+
+  void load_next();
+  void on_due();
+
+  Process& process_;
+  RecordedSource& source_;
+  PublishNode& output_;
+  Pacer pacer_;
+  LossCounter losses_;
+  EventLoop::TimerId due_timer_;
+  GreyFrame frame_;
+  std::int64_t due_us_ = 0;
+};
+
+}  // namespace plumb

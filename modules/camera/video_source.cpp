@@ -1,0 +1,71 @@
+#include "modules/camera/video_source.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+
+#include "platform/log.hpp"
+#include "platform/process.hpp"
+
+namespace plumb {
+
+VideoSource::VideoSource(const std::string& file) : file_(file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) throw UsageError("cannot read " + file);
+  // The two that read files only; the others would take the name for a pipeline or a numbered series.
+  if (!capture_.open(file, cv::CAP_FFMPEG) && !capture_.open(file, cv::CAP_OPENCV_MJPEG))
+    throw UsageError(file + ": is not a readable video");
+  const double rate_hz = capture_.get(cv::CAP_PROP_FPS);
+  if (!(rate_hz > 0.0) || rate_hz > 1000.0)
+    throw UsageError(file + ": does not tell its frame rate");
+  period_us_ = 1e6 / rate_hz;
+  if (!load()) throw UsageError(file + ": has no frames");
+  first_is_loaded_ = true;
+}
+
+bool VideoSource::load() {
+  if (!capture_.read(colour_) || colour_.empty()) return false;
+  if (colour_.depth() != CV_8U) throw UsageError(file_ + ": has more than 8 bits per pixel");
+  const cv::Size size = image_.size();
+  if (colour_.channels() == 1) {
+    colour_.copyTo(image_);
+  } else {
+    cv::cvtColor(colour_, image_, cv::COLOR_BGR2GRAY);
+  }
+  if (!size.empty() && image_.size() != size) throw UsageError(file_ + ": changes its image size");
+  const std::int64_t told_us = std::llround(capture_.get(cv::CAP_PROP_POS_MSEC) * 1e3);
+  const bool increases = seq_ < 0 || told_us > capture_us_;
+  capture_us_ = increases ? told_us : capture_us_ + std::llround(period_us_);
+  ++seq_;
+  return true;
+}
+
+void VideoSource::complete(CameraConfig* config) const {
+  const bool same_width = config->width_px == 0 || config->width_px == image_.cols;
+  const bool same_height = config->height_px == 0 || config->height_px == image_.rows;
+  if (!same_width || !same_height) {
+    throw UsageError(file_ + ": is " + std::to_string(image_.cols) + "x" +
+                     std::to_string(image_.rows) + ", camera.width_px and camera.height_px say " +
+                     std::to_string(config->width_px) + "x" + std::to_string(config->height_px));
+  }
+  config->width_px = image_.cols;
+  config->height_px = image_.rows;
+}
+
+bool VideoSource::read(GreyFrame* frame) {
+  if (!first_is_loaded_ && !load()) {
+    const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+    if (count > static_cast<double>(seq_ + 1)) {
+      log_line("%s: ends after %lld of %.0f frames", file_.c_str(),
+               static_cast<long long>(seq_ + 1), count);
+    }
+    return false;
+  }
+  first_is_loaded_ = false;
+  *frame = {capture_us_,
+            seq_,
+            {image_.data, image_.cols, image_.rows, static_cast<std::ptrdiff_t>(image_.step[0])}};
+  return true;
+}
+
+}  // namespace plumb

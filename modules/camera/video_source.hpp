@@ -1,0 +1,37 @@
+/// A video file, in any container OpenCV reads.
+///
+/// seq      the frame's index, from 0.
+/// Time     the file's own presentation times where they increase, else its nominal frame period.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+
+#include "modules/camera/recorded_source.hpp"
+
+namespace plumb {
+
+class VideoSource final : public RecordedSource {
+ public:
+  /// Opens and reads the first frame. Throws UsageError.
+  explicit VideoSource(const std::string& file);
+
+  void complete(CameraConfig* config) const override;
+  [[nodiscard]] bool read(GreyFrame* frame) override;
+
+ private:
+  bool load();
+
+  std::string file_;
+  cv::VideoCapture capture_;
+  double period_us_ = 0.0;
+  std::int64_t seq_ = -1;  ///< of the frame in image_
+  std::int64_t capture_us_ = 0;
+  bool first_is_loaded_ = false;
+  cv::Mat colour_;
+  cv::Mat image_;
+};
+
+}  // namespace plumb
