@@ -13,6 +13,13 @@ namespace plumb {
   return static_cast<std::int64_t>(t.tv_sec) * 1'000'000 + t.tv_nsec / 1'000;
 }
 
+/// [us] since 1970, CLOCK_REALTIME: for time stamps that people compare across machines; it may jump.
+[[nodiscard]] inline std::int64_t realtime_us() {
+  timespec t{};
+  clock_gettime(CLOCK_REALTIME, &t);
+  return static_cast<std::int64_t>(t.tv_sec) * 1'000'000 + t.tv_nsec / 1'000;
+}
+
 /// [ns] CLOCK_MONOTONIC, for stage times.
 [[nodiscard]] inline std::int64_t monotonic_ns() {
   timespec t{};

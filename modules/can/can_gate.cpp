@@ -1,6 +1,5 @@
 #include "modules/can/can_gate.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "modules/can/can_e2e.hpp"
@@ -8,7 +7,6 @@
 namespace plumb {
 namespace {
 
-constexpr std::int64_t kMaxGap = 1'000'000;  // a wild seq must not overflow the count
 constexpr int kTickMs = static_cast<int>(CanGate::kTickUs / 1'000);
 
 /// Age of `then_us`; never negative, and the largest there is when the clock went backwards.
@@ -135,13 +133,9 @@ void CanGate::on_ego_motion(const CanEgo& ego, std::int64_t now_us) {
 /// The open entry of `seq`; null when that frame has been closed already.
 CanGate::Entry* CanGate::open(std::int64_t seq, std::int64_t now_us) {
   if (is_open_ && open_.seq == seq) return &open_;
-  if (seq == last_seq_) return nullptr;
+  if (order_.take(seq) == SeqStep::kRepeat) return nullptr;
   if (is_open_) close();
-  // A step back is a source that started anew, not a gap.
-  if (last_seq_ >= 0 && seq > last_seq_) {
-    counters_.num_missed += std::min(seq - last_seq_ - 1, kMaxGap);
-  }
-  last_seq_ = seq;
+  counters_.num_missed = order_.num_lost();
   open_ = Entry{};
   open_.seq = seq;
   open_.received_us = now_us;
@@ -175,9 +169,7 @@ bool CanGate::next(std::int64_t now_us) {
 }
 
 CanValues CanGate::compose(std::int64_t now_us) const {
-  CanValues v;
-  v.ego_validity = number(CanValidity::kAbsent);
-  v.plane_validity = number(CanValidity::kAbsent);
+  CanValues v;  // all not available
   v.frame_counter = has_current_ ? static_cast<double>(current_.seq & 0xFF) : 0.0;
   const bool fresh = has_current_ && age_us(now_us, current_.received_us) <= stale_us_;
   if (fresh && current_.has_ego) put(current_.ego, &v);

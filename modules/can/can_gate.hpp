@@ -15,6 +15,7 @@
 #include "modules/can/can_codec.hpp"
 #include "modules/can/can_config.hpp"
 #include "platform/can_frame.hpp"
+#include "platform/counters.hpp"
 
 namespace plumb {
 
@@ -31,12 +32,12 @@ enum class CanEgoStatus : std::int8_t {
 /// Same numbers as ground_plane_t.STATUS_* (asserted in can_wire.cpp).
 enum class CanPlaneStatus : std::int8_t { kOk = 0, kInitializing = 1, kHeld = 2, kInvalid = 3 };
 
-/// What a receiver may do with the values beside it.
+/// What a receiver may do with the values beside it. All ones, not available: nothing received, or too
+/// old.
 enum class CanValidity : std::int8_t {
   kInvalid = 0,  ///< the source answers, but its values do not hold: they are sent as not available
   kDegraded = 1,  ///< predicted; the deviation says how far to trust it
   kValid = 2,
-  kAbsent = 3,  ///< nothing received, or too old
 };
 
 enum class CanMode : std::int8_t {
@@ -137,7 +138,7 @@ class CanGate {
   bool is_open_ = false;
   Entry current_;  ///< what is repeated
   bool has_current_ = false;
-  std::int64_t last_seq_ = -1;
+  LossCounter order_;
   std::int64_t start_us_ = 0;
   bool is_started_ = false;
   std::array<int, kNumMessages> ms_since_sent_{};

@@ -137,7 +137,7 @@ bool CanOutput::on_ego_motion(const ego_motion_t& message, std::int64_t now_us) 
 }
 
 void CanOutput::tick(std::int64_t now_us, CanSink& sink) {
-  gate_.report(num_rejected_, num_unsent_);
+  gate_.report(num_rejected_ + num_undecoded_, num_unsent_);
   gate_.tick(now_us, sink);
 }
 

@@ -31,9 +31,6 @@ class CanOutput {
   bool on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
   bool on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
 
-  /// A message that could not even be decoded.
-  void count_rejected() { ++num_rejected_; }
-
   /// One tick of the caller's timer.
   void tick(std::int64_t now_us, CanSink& sink);
 
@@ -43,8 +40,13 @@ class CanOutput {
   /// Ticks until no frame waits.
   void finish(CanSink& sink);
 
-  /// Frames that the bus did not take; shown in PLB_Status.
-  void set_num_unsent(std::int64_t num_unsent) { num_unsent_ = num_unsent; }
+  /// What only the caller can count, for PLB_Status: messages that did not decode, and frames that
+  /// the bus did not take.
+  void report(std::int64_t num_undecoded, std::int64_t num_unsent) {
+    num_undecoded_ = num_undecoded;
+    num_unsent_ = num_unsent;
+  }
+  [[nodiscard]] std::int64_t num_rejected() const { return num_rejected_; }
   [[nodiscard]] const CanCounters& counters() const { return gate_.counters(); }
 
  private:
@@ -54,6 +56,7 @@ class CanOutput {
   CanEgo ego_;
   CanPlane plane_;
   std::int64_t num_rejected_ = 0;
+  std::int64_t num_undecoded_ = 0;
   std::int64_t num_unsent_ = 0;
   std::int64_t next_tick_us_ = 0;
   bool is_started_ = false;

@@ -1,0 +1,45 @@
+/// A small DBC reader of its own, so that the tests can hold the file against the C++ tables.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace plumb::test {
+
+struct DbcSignal {
+  std::string name;
+  int start_bit = 0;
+  int length = 0;
+  bool is_intel = false;
+  bool is_signed = false;
+  double factor = 0.0;
+  double offset = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+  std::string unit;
+  std::string comment;
+  std::map<std::string, std::string> attributes;
+  std::map<long, std::string> values;  ///< VAL_
+};
+
+struct DbcMessage {
+  unsigned id = 0;
+  std::string name;
+  int bytes = 0;
+  std::string comment;
+  std::map<std::string, std::string> attributes;
+  std::vector<DbcSignal> signals;
+
+  [[nodiscard]] DbcSignal* find(const std::string& signal);
+};
+
+struct Dbc {
+  std::string version;
+  std::map<unsigned, DbcMessage> messages;
+};
+
+/// Empty when the file cannot be read.
+[[nodiscard]] Dbc read_dbc(const std::string& path);
+
+}  // namespace plumb::test
