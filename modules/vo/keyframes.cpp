@@ -1,0 +1,159 @@
+#include "modules/vo/keyframes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "modules/vo/inverse_depth.hpp"
+#include "modules/vo/projection.hpp"
+
+namespace plumb::vo {
+namespace {
+
+// Less parallax than this makes no keyframe, however few tracks are left.
+constexpr double kMinParallaxPx = 2.0;
+constexpr double kFewTracksRatio = 0.5;
+constexpr double kFewTracksParallaxPx = 1.0;
+constexpr double kKnownDepth = 0.2;  // deviation as a share of rho
+constexpr double kUnknownStd = 0.3;  // 1/[vo]
+constexpr double kHorizonMarginPx = 30.0;
+
+}  // namespace
+
+Keyframes::Keyframes(const VoConfig& config, const CameraModel& camera, int track_capacity)
+    : config_(config),
+      camera_(camera),
+      detector_(camera.width_px, camera.height_px, config.max_tracks) {
+  neighbours_.reserve(static_cast<std::size_t>(track_capacity));
+  scratch_.reserve(static_cast<std::size_t>(track_capacity));
+}
+
+Keyframes::View Keyframes::look(const TrackTable& tracks, const Window& window,
+                                const Se3& T_cam_world) {
+  View view;
+  const int keyframe = window.newest_keyframe();
+  const Eigen::Matrix3d R_cam_key = T_cam_world.R * window[keyframe].T_cam_world.R.transpose();
+  scratch_.clear();
+  for (const int index : tracks.active()) {
+    const Track& track = tracks[index];
+    ++view.num_tracks;
+    if (!track.seen_in(keyframe)) continue;
+    ++view.num_shared;
+    const Eigen::Vector3d Y = R_cam_key * track.xy_in(keyframe).homogeneous();
+    if (Y.z() > 0.1) scratch_.push_back((camera_.project(Y) - track.px).norm());
+  }
+  constexpr double kNothingShared = 99.0;
+  view.median_parallax_px = kNothingShared;
+  if (!scratch_.empty()) {
+    const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
+    std::nth_element(scratch_.begin(), middle, scratch_.end());
+    view.median_parallax_px = *middle;
+  }
+  return view;
+}
+
+bool Keyframes::wanted(const View& view) const {
+  if (view.median_parallax_px > config_.keyframe_parallax_px) return true;
+  if (view.num_shared < config_.keyframe_overlap_ratio * num_at_keyframe_ &&
+      view.median_parallax_px > kMinParallaxPx) {
+    return true;
+  }
+  return view.num_tracks < kFewTracksRatio * num_at_keyframe_ &&
+         view.median_parallax_px > kFewTracksParallaxPx;
+}
+
+void Keyframes::remove_frame(int slot, TrackTable& tracks, Window& window) {
+  const auto leave = [&](int index) {
+    Track& track = tracks[index];
+    if (track.host == slot) {
+      if (!change_host(track, slot, window)) return false;
+      track.host_px = camera_.from_normalized(track.host_xy);
+    }
+    track.forget(slot);
+    return true;
+  };
+  tracks.sift_active(
+      [&](int index) { return leave(index) ? TrackTable::Fate::kStay : TrackTable::Fate::kFree; });
+  tracks.sift_passive([&](int index) {
+    if (!leave(index)) return false;
+    const Track& track = tracks[index];
+    return __builtin_popcount(track.seen & ~(1U << track.host)) >= 2;
+  });
+  window.remove(slot);
+}
+
+void Keyframes::trim_recent(TrackTable& tracks, Window& window) {
+  for (int stale = window.stale_frame(); stale >= 0; stale = window.stale_frame()) {
+    remove_frame(stale, tracks, window);
+  }
+}
+
+void Keyframes::promote(int slot, const ImageView& image, TrackTable& tracks, Window& window) {
+  window.make_keyframe(slot, image);
+  while (window.num_keyframes() > kMaxKeyframes) {
+    remove_frame(window.oldest_keyframe(), tracks, window);
+  }
+}
+
+void Keyframes::collect_neighbours(int slot, const TrackTable& tracks, const Window& window) {
+  neighbours_.clear();
+  for (const int index : tracks.active()) {
+    const Track& track = tracks[index];
+    if (track.host == slot || track.rho_std > kKnownDepth * track.rho) continue;
+    const Se3 T_cam_host = window[slot].T_cam_world * window[track.host].T_cam_world.inverse();
+    double rho = 0.0;
+    double rho_std = 0.0;
+    if (inverse_depth_in(track, T_cam_host, &rho, &rho_std)) neighbours_.push_back({track.px, rho});
+  }
+}
+
+// Median of the three nearest; rows differ in depth more than columns do.
+void Keyframes::guess_depth(Track& track) const {
+  constexpr double kRowWeight = 4.0;
+  std::array<std::pair<double, double>, 3> nearest;
+  nearest.fill({1e300, 0.0});
+  for (const Neighbour& n : neighbours_) {
+    const Eigen::Vector2d e = n.px - track.px;
+    const double distance2 = e.x() * e.x() + kRowWeight * e.y() * e.y();
+    if (distance2 >= nearest[2].first) continue;
+    nearest[2] = {distance2, n.rho};
+    if (nearest[2].first < nearest[1].first) std::swap(nearest[2], nearest[1]);
+    if (nearest[1].first < nearest[0].first) std::swap(nearest[1], nearest[0]);
+  }
+  track.rho = kTypicalRho;
+  track.rho_std = kUnknownStd;
+  track.prior_rho = kTypicalRho;
+  track.prior_std = kUnknownStd;
+  if (nearest[2].first > 1e299) return;
+  const double a = nearest[0].second;
+  const double b = nearest[1].second;
+  const double c = nearest[2].second;
+  track.rho = std::max(std::min(a, b), std::min(std::max(a, b), c));
+  track.rho_std = std::max(0.02, 0.7 * track.rho);
+  track.prior_rho = track.rho;
+  track.prior_std = std::max(0.03, track.rho);
+}
+
+int Keyframes::spawn(int slot, const ImageView& image, TrackTable& tracks, const Window& window) {
+  detector_.clear();
+  for (const int index : tracks.active()) detector_.take(tracks[index].px);
+  collect_neighbours(slot, tracks, window);
+  const CornerOptions options{config_.min_corner_grey2, camera_.cy_px + kHorizonMarginPx};
+  int num_new = 0;
+  for (const Eigen::Vector2d& px : detector_.detect(image, options)) {
+    const int index = tracks.add();
+    if (index < 0) break;
+    Track& track = tracks[index];
+    track.host = slot;
+    track.px = track.prev_px = track.host_px = px;
+    track.xy = track.prev_xy = track.host_xy = camera_.to_normalized(px);
+    track.observe(slot, track.xy);
+    track.num_images = 1;
+    guess_depth(track);
+    ++num_new;
+  }
+  num_at_keyframe_ = static_cast<int>(tracks.active().size());
+  return num_new;
+}
+
+}  // namespace plumb::vo

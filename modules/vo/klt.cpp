@@ -1,0 +1,55 @@
+#include "modules/vo/klt.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/vo/patch.hpp"
+
+namespace plumb::vo {
+namespace {
+
+// Closer to 1 than this, warping the template costs more than it brings.
+constexpr float kScaleWorthWarping = 0.04F;
+constexpr AlignLimits kCoarse{8, 8.0F, 0.15F};
+constexpr AlignLimits kFine{12, 5.0F, 0.25F};
+
+Eigen::Vector2f at_level(const Eigen::Vector2f& px, int level) {
+  const float s = 1.0F / static_cast<float>(1 << level);
+  return (px.array() + 0.5F) * s - 0.5F;
+}
+
+Eigen::Vector2f from_level(const Eigen::Vector2f& px, int level) {
+  const auto s = static_cast<float>(1 << level);
+  return (px.array() + 0.5F) * s - 0.5F;
+}
+
+}  // namespace
+
+KltMatch klt_search(const Pyramid& from, const Eigen::Vector2f& from_px, const Pyramid& to,
+                    const Eigen::Vector2f& guess_px, float scale, int top_level) {
+  const bool warp = std::abs(scale - 1.0F) > kScaleWorthWarping;
+  const Eigen::Matrix2f A = Eigen::Matrix2f::Identity() / scale;
+  Eigen::Vector2f px = guess_px;
+  KltMatch match;
+  Patch<7> patch;
+  for (int l = std::min(top_level, from.num_levels() - 1); l >= 0; --l) {
+    const Eigen::Vector2f centre = at_level(from_px, l);
+    const bool usable =
+        warp ? patch.cut(from.level(l), centre, A) : patch.cut(from.level(l), centre);
+    if (!usable) {
+      if (l == 0) return match;
+      continue;  // too near the border for this level
+    }
+    const Alignment found = patch.align(to.level(l), at_level(px, l), l == 0 ? kFine : kCoarse);
+    if (found.ok()) {
+      px = from_level(found.px, l);
+    } else if (l == 0) {
+      return match;
+    }
+    match.ncc = found.ncc;
+  }
+  match.px = px;
+  return match;
+}
+
+}  // namespace plumb::vo

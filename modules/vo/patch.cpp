@@ -1,0 +1,196 @@
+#include "modules/vo/patch.hpp"
+
+#include <cmath>
+
+namespace plumb::vo {
+namespace {
+
+// Per pixel: below this the patch is noise.
+constexpr float kMinVarianceGrey2 = 1.0F;
+// Determinant over squared trace: below this the patch is an edge.
+constexpr float kMinIsotropy = 1e-6F;
+constexpr float kConvergedPx2 = 1e-4F;
+
+float bilinear(const ImageView& image, float u, float v) {
+  const int ui = static_cast<int>(u);
+  const int vi = static_cast<int>(v);
+  const float fu = u - static_cast<float>(ui);
+  const float fv = v - static_cast<float>(vi);
+  const std::uint8_t* p = image.row(vi) + ui;
+  const std::uint8_t* q = p + image.stride_bytes;
+  const float top = static_cast<float>(p[0]) + fu * static_cast<float>(p[1] - p[0]);
+  const float bottom = static_cast<float>(q[0]) + fu * static_cast<float>(q[1] - q[0]);
+  return top + fv * (bottom - top);
+}
+
+[[gnu::always_inline]] inline Float8 lerp_bytes(const std::uint8_t* p, float f) {
+  const Float8 left = load_bytes(p);
+  return left + f * (load_bytes(p + 1) - left);
+}
+
+}  // namespace
+
+template <int kHalf>
+[[gnu::always_inline]] inline Float8 Patch<kHalf>::mask(int vector) {
+  Float8 m;
+  for (int i = 0; i < 8; ++i) m[i] = 8 * vector + i < kSize ? 1.0F : 0.0F;
+  return m;
+}
+
+template <int kHalf>
+bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px) {
+  const int u0 = static_cast<int>(std::floor(px.x())) - kHalf - 1;
+  const int v0 = static_cast<int>(std::floor(px.y())) - kHalf - 1;
+  if (u0 < 0 || v0 < 0 || u0 + kRawSize >= image.width_px || v0 + kRawSize >= image.height_px) {
+    return false;
+  }
+  const float fu = px.x() - std::floor(px.x());
+  const float fv = px.y() - std::floor(px.y());
+  alignas(32) Raw raw;
+  Float8 top[kRawVectors];
+  const std::uint8_t* p = image.row(v0) + u0;
+  for (int k = 0; k < kRawVectors; ++k) top[k] = lerp_bytes(p + 8 * k, fu);
+  for (int j = 0; j < kRawSize; ++j) {
+    p += image.stride_bytes;
+    for (int k = 0; k < kRawVectors; ++k) {
+      const Float8 bottom = lerp_bytes(p + 8 * k, fu);
+      store_floats(top[k] + fv * (bottom - top[k]), &raw[j][8 * k]);
+      top[k] = bottom;
+    }
+  }
+  return prepare(raw);
+}
+
+template <int kHalf>
+bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px,
+                       const Eigen::Matrix2f& A) {
+  // The far corners bound the parallelogram.
+  constexpr float kReach = kHalf + 1;
+  const float reach_u = kReach * (std::abs(A(0, 0)) + std::abs(A(0, 1)));
+  const float reach_v = kReach * (std::abs(A(1, 0)) + std::abs(A(1, 1)));
+  if (!(px.x() - reach_u >= 1.0F && px.y() - reach_v >= 1.0F &&
+        px.x() + reach_u <= static_cast<float>(image.width_px - 3) &&
+        px.y() + reach_v <= static_cast<float>(image.height_px - 3))) {
+    return false;
+  }
+  alignas(32) Raw raw;
+  for (int j = 0; j < kRawSize; ++j) {
+    const float y = static_cast<float>(j) - kReach;
+    const float u = px.x() + A(0, 1) * y - A(0, 0) * kReach;
+    const float v = px.y() + A(1, 1) * y - A(1, 0) * kReach;
+    for (int i = 0; i < kRawSize; ++i) {
+      const auto x = static_cast<float>(i);
+      raw[j][i] = bilinear(image, u + A(0, 0) * x, v + A(1, 0) * x);
+    }
+    for (int i = kRawSize; i < 8 * kRawVectors; ++i) raw[j][i] = 0.0F;
+  }
+  return prepare(raw);
+}
+
+template <int kHalf>
+bool Patch<kHalf>::prepare(const Raw& raw) {
+  constexpr float kScale = 1.0F / kPixels;
+  Float8 sum{};
+  Float8 sum_x{};
+  Float8 sum_y{};
+  for (int j = 0; j < kSize; ++j) {
+    for (int k = 0; k < kVectors; ++k) {
+      const Float8 m = mask(k);
+      // The last vector of a row may reach past the raw row; the mask removes what it finds there.
+      const float* here = &raw[j + 1][8 * k];
+      value_[j][k] = m * load_floats(here + 1);
+      gx_[j][k] = m * 0.5F * (load_floats(here + 2) - load_floats(here));
+      gy_[j][k] =
+          m * 0.5F * (load_floats(&raw[j + 2][8 * k] + 1) - load_floats(&raw[j][8 * k] + 1));
+      sum += value_[j][k];
+      sum_x += gx_[j][k];
+      sum_y += gy_[j][k];
+    }
+  }
+  mean_ = lane_sum(sum) * kScale;
+  const float mean_x = lane_sum(sum_x) * kScale;
+  const float mean_y = lane_sum(sum_y) * kScale;
+  Float8 tt{}, xx{}, xy{}, yy{}, xt{}, yt{};
+  for (int j = 0; j < kSize; ++j) {
+    for (int k = 0; k < kVectors; ++k) {
+      const Float8 m = mask(k);
+      const Float8 t = value_[j][k] = value_[j][k] - m * mean_;
+      const Float8 x = gx_[j][k] = gx_[j][k] - m * mean_x;
+      const Float8 y = gy_[j][k] = gy_[j][k] - m * mean_y;
+      tt += t * t;
+      xx += x * x;
+      xy += x * y;
+      yy += y * y;
+      xt += x * t;
+      yt += y * t;
+    }
+  }
+  tt_ = lane_sum(tt);
+  a_ = lane_sum(xx);
+  b_ = lane_sum(xy);
+  c_ = lane_sum(yy);
+  gxt_ = lane_sum(xt);
+  gyt_ = lane_sum(yt);
+  det_ = a_ * c_ - b_ * b_;
+  return tt_ > kMinVarianceGrey2 * kPixels && det_ > kMinIsotropy * (a_ + c_) * (a_ + c_);
+}
+
+template <int kHalf>
+typename Patch<kHalf>::Sums Patch<kHalf>::compare(const std::uint8_t* corner, std::ptrdiff_t stride,
+                                                  float fu, float fv) const {
+  Float8 p{}, pp{}, pt{}, px{}, py{};
+  Float8 top[kVectors];
+  for (int k = 0; k < kVectors; ++k) top[k] = lerp_bytes(corner + 8 * k, fu);
+  for (int j = 0; j < kSize; ++j) {
+    corner += stride;
+    for (int k = 0; k < kVectors; ++k) {
+      const Float8 bottom = lerp_bytes(corner + 8 * k, fu);
+      const Float8 v = mask(k) * (top[k] + fv * (bottom - top[k]) - mean_);
+      top[k] = bottom;
+      p += v;
+      pp += v * v;
+      pt += v * value_[j][k];
+      px += v * gx_[j][k];
+      py += v * gy_[j][k];
+    }
+  }
+  return {lane_sum(p), lane_sum(pp), lane_sum(pt), lane_sum(px), lane_sum(py)};
+}
+
+template <int kHalf>
+Alignment Patch<kHalf>::align(const ImageView& image, const Eigen::Vector2f& start,
+                              const AlignLimits& limits) const {
+  Alignment result;
+  Eigen::Vector2f px = start;
+  float ncc = -1.0F;
+  for (int i = 0; i < limits.max_iterations; ++i) {
+    const float u = std::floor(px.x());
+    const float v = std::floor(px.y());
+    const int u0 = static_cast<int>(u) - kHalf;
+    const int v0 = static_cast<int>(v) - kHalf;
+    if (!(u0 >= 0 && v0 >= 0 && u0 + kSize < image.width_px && v0 + kSize < image.height_px)) {
+      return result;
+    }
+    const Sums s = compare(image.row(v0) + u0, image.stride_bytes, px.x() - u, px.y() - v);
+    const float pp = s.pp - s.p * s.p * (1.0F / kPixels);
+    if (!(pp > 0.0F)) return result;
+    ncc = s.pt / std::sqrt(pp * tt_);
+    const float gain = s.pt / tt_;
+    if (!(gain >= limits.min_gain)) return result;
+    const float bx = s.px / gain - gxt_;
+    const float by = s.py / gain - gyt_;
+    const Eigen::Vector2f step((c_ * bx - b_ * by) / det_, (a_ * by - b_ * bx) / det_);
+    px -= step;
+    if (!((px - start).squaredNorm() <= limits.max_shift_px * limits.max_shift_px)) return result;
+    if (step.squaredNorm() < kConvergedPx2) break;
+  }
+  result.px = px;
+  result.ncc = ncc;
+  return result;
+}
+
+template class Patch<3>;
+template class Patch<5>;
+template class Patch<7>;
+
+}  // namespace plumb::vo

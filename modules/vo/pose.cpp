@@ -1,0 +1,102 @@
+#include "modules/vo/pose.hpp"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+
+#include "modules/vo/projection.hpp"
+
+namespace plumb::vo {
+namespace {
+
+constexpr double kCauchy2 = 4.0;
+constexpr double kConvergedStep = 1e-7;
+
+using HostTable = std::array<Se3, kMaxFrames>;
+
+struct NormalEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d b = Vector6d::Zero();
+  double sum_inlier_px2 = 0.0;
+};
+
+void add_point(const Track& track, const Se3& T_cam_host, const Eigen::Vector2d& focal_px,
+               double kernel2, NormalEquations* normal, PoseFit* fit) {
+  const PointInFrame p = transfer(T_cam_host, track.host_xy, track.rho, track.xy, focal_px);
+  if (!p.in_front) return;
+  const Matrix23d D = projection_jacobian(p.Y, focal_px);
+  const Eigen::Vector2d d = D * T_cam_host.t;
+
+  // Inverse of S = s2 I + v d d^T (Sherman-Morrison): (I - k d d^T) / s2.
+  const double s2 = kPixelStd * kPixelStd;
+  const double v = track.rho_std * track.rho_std;
+  const double k = v / (s2 + v * d.squaredNorm());
+  const double rd = p.residual_px.dot(d);
+  const double e2 = (p.residual_px.squaredNorm() - k * rd * rd) / s2;
+  const double weight = 1.0 / ((1.0 + e2 / kernel2) * s2);
+
+  ++fit->num_points;
+  if (e2 < kInlierChi2) {
+    ++fit->num_inliers;
+    normal->sum_inlier_px2 += p.residual_px.squaredNorm();
+  }
+  const Matrix26d J = frame_jacobian(D, p.Y, track.rho);
+  const Vector6d a = J.row(0).transpose();
+  const Vector6d c = J.row(1).transpose();
+  const Vector6d g = d.x() * a + d.y() * c;
+  normal->H.noalias() += (weight * a) * a.transpose();
+  normal->H.noalias() += (weight * c) * c.transpose();
+  normal->H.noalias() -= (weight * k * g) * g.transpose();
+  normal->b += weight * (a * p.residual_px.x() + c * p.residual_px.y() - (k * rd) * g);
+}
+
+// Rotation about the camera centre c keeps R^T t: with T <- (E R, E t) the (d, w) step is (0, w).
+bool solve(const NormalEquations& normal, bool hold_translation, Vector6d* step) {
+  step->setZero();
+  if (hold_translation) {
+    const Eigen::Matrix3d H = normal.H.bottomRightCorner<3, 3>();
+    step->tail<3>() = H.ldlt().solve(normal.b.tail<3>());
+  } else {
+    Matrix6d H = normal.H;
+    H.diagonal() *= 1.0 + 1e-6;
+    H.diagonal().head<3>().array() += 1e-9;
+    *step = H.ldlt().solve(normal.b);
+  }
+  return step->allFinite();
+}
+
+}  // namespace
+
+PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& window,
+                 const Eigen::Vector2d& focal_px, const PoseOptions& options) {
+  HostTable T_world_host;
+  for (const int slot : window.order()) {
+    T_world_host[static_cast<std::size_t>(slot)] = window[slot].T_cam_world.inverse();
+  }
+  PoseFit fit;
+  fit.T_cam_world = start;
+  for (int i = 0; i <= options.max_iterations; ++i) {
+    HostTable T_cam_host;
+    for (const int slot : window.order()) {
+      const auto s = static_cast<std::size_t>(slot);
+      T_cam_host[s] = fit.T_cam_world * T_world_host[s];
+    }
+    NormalEquations normal;
+    fit.num_points = 0;
+    fit.num_inliers = 0;
+    for (const int index : tracks.active()) {
+      const Track& track = tracks[index];
+      add_point(track, T_cam_host[static_cast<std::size_t>(track.host)], focal_px,
+                kCauchy2 * options.kernel_scale, &normal, &fit);
+    }
+    fit.information = normal.H;
+    fit.rms_px = std::sqrt(normal.sum_inlier_px2 / std::max(1, fit.num_inliers));
+    Vector6d step;
+    if (i == options.max_iterations || !solve(normal, options.hold_translation, &step)) break;
+    perturb(fit.T_cam_world, step);
+    if (step.norm() < kConvergedStep) break;
+  }
+  return fit;
+}
+
+}  // namespace plumb::vo

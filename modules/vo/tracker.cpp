@@ -1,0 +1,184 @@
+#include "modules/vo/tracker.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "modules/vo/klt.hpp"
+#include "modules/vo/patch.hpp"
+#include "modules/vo/projection.hpp"
+
+namespace plumb::vo {
+namespace {
+
+constexpr double kBorderPx = 10.0;
+constexpr float kMaxRoundTripPx = 0.7F;
+constexpr float kMinSearchNcc = 0.5F;
+constexpr float kMinAnchorNcc = 0.75F;
+// Good enough with the road's warp alone, for a point that was on the road before.
+constexpr float kRoadNcc = 0.9F;
+constexpr double kRoadBelowHorizonPx = 25.0;
+// Depth deviations, as a share of rho, up to which a prediction leans on them.
+constexpr double kUsableDepth = 0.5;
+constexpr AlignLimits kAnchorLimits{};
+
+Eigen::Matrix2f inverse_of(const Eigen::Matrix2d& B) { return B.inverse().cast<float>(); }
+
+}  // namespace
+
+Tracker::Tracker(const CameraModel& camera, int track_capacity)
+    : camera_(camera),
+      guesses_(static_cast<std::size_t>(track_capacity)),
+      found_(static_cast<std::size_t>(track_capacity)),
+      flow_(static_cast<std::size_t>(track_capacity)) {
+  scratch_.reserve(static_cast<std::size_t>(track_capacity));
+}
+
+bool Tracker::inside(const Eigen::Vector2d& px) const {
+  return px.x() >= kBorderPx && px.y() >= kBorderPx && px.x() <= camera_.width_px - kBorderPx - 1 &&
+         px.y() <= camera_.height_px - kBorderPx - 1;
+}
+
+void Tracker::begin(TrackTable& tracks) {
+  for (const int index : tracks.active()) {
+    Track& track = tracks[index];
+    flow_[static_cast<std::size_t>(index)] = track.px - track.prev_px;
+    track.prev_px = track.px;
+    track.prev_xy = track.xy;
+    found_[static_cast<std::size_t>(index)] = 0;
+  }
+}
+
+void Tracker::predict_by_flow(const TrackTable& tracks) {
+  for (const int index : tracks.active()) {
+    const auto i = static_cast<std::size_t>(index);
+    guesses_[i] = {(tracks[index].prev_px + flow_[i]).cast<float>(), 1.0F};
+  }
+}
+
+void Tracker::predict_by_pose(const TrackTable& tracks, const Window& window,
+                              const Se3& T_prev_world, const Se3& T_cam_world) {
+  std::array<Se3, kMaxFrames> T_cam_host;
+  std::array<Se3, kMaxFrames> T_prev_host;
+  for (const int slot : window.order()) {
+    const Se3 T_world_host = window[slot].T_cam_world.inverse();
+    T_cam_host[static_cast<std::size_t>(slot)] = T_cam_world * T_world_host;
+    T_prev_host[static_cast<std::size_t>(slot)] = T_prev_world * T_world_host;
+  }
+  for (const int index : tracks.active()) {
+    const Track& track = tracks[index];
+    Guess& guess = guesses_[static_cast<std::size_t>(index)];
+    guess = {track.prev_px.cast<float>(), 1.0F};
+    const auto host = static_cast<std::size_t>(track.host);
+    const Eigen::Vector3d m = track.host_xy.homogeneous();
+    const Eigen::Vector3d Y = T_cam_host[host].R * m + track.rho * T_cam_host[host].t;
+    const Eigen::Vector3d Y_prev = T_prev_host[host].R * m + track.rho * T_prev_host[host].t;
+    if (Y.z() < kMinDepthRatio || Y_prev.z() < kMinDepthRatio) continue;
+    // Added to where the track was, the predicted motion keeps the track's own offset from its model.
+    const Eigen::Vector2d now = camera_.project(Y);
+    const Eigen::Vector2d before = camera_.project(Y_prev);
+    const bool usable = track.rho_std < kUsableDepth * track.rho;
+    guess.px = (usable ? now : Eigen::Vector2d(track.prev_px + now - before)).cast<float>();
+    guess.scale = std::clamp(static_cast<float>(Y_prev.z() / Y.z()), 0.5F, 2.0F);
+  }
+}
+
+int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, int top_level) {
+  int num_found = 0;
+  scratch_.clear();
+  for (const int index : tracks.active()) {
+    unsigned char& found = found_[static_cast<std::size_t>(index)];
+    if (found != 0) {
+      ++num_found;
+      continue;
+    }
+    Track& track = tracks[index];
+    const Guess& guess = guesses_[static_cast<std::size_t>(index)];
+    const Eigen::Vector2f start = track.prev_px.cast<float>();
+    const KltMatch there = klt_search(from, start, to, guess.px, guess.scale, top_level);
+    if (!there.ok() || there.ncc < kMinSearchNcc || !inside(there.px.cast<double>())) continue;
+    const KltMatch back = klt_search(to, there.px, from, start, 1.0F / guess.scale, 0);
+    if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) continue;
+    found = 1;
+    ++num_found;
+    track.px = there.px.cast<double>();
+    track.xy = camera_.to_normalized(track.px);
+    scratch_.push_back(static_cast<double>((there.px - guess.px).norm()));
+  }
+  if (!scratch_.empty()) {
+    const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
+    std::nth_element(scratch_.begin(), middle, scratch_.end());
+    median_surprise_px_ = *middle;
+  }
+  return num_found;
+}
+
+void Tracker::drop_missing(TrackTable& tracks) {
+  tracks.sift_active([this](int index) {
+    return found_[static_cast<std::size_t>(index)] != 0 ? TrackTable::Fate::kStay
+                                                        : TrackTable::Fate::kRetire;
+  });
+}
+
+bool Tracker::anchor_one(const ImageView& image, Track& track, const ImageView& host_image,
+                         const Se3& T_cam_host) const {
+  const Eigen::Vector3d m = track.host_xy.homogeneous();
+  const Eigen::Vector3d Y = T_cam_host.R * m + track.rho * T_cam_host.t;
+  if (Y.z() < kMinDepthRatio) return false;
+  const bool usable = track.rho_std < kUsableDepth * track.rho;
+  const Eigen::Vector2f start = track.px.cast<float>();
+  const Eigen::Vector2f host_px = track.host_px.cast<float>();
+  Alignment best;
+  bool on_road = false;
+  Patch<5> patch;
+
+  if (usable && track.host_px.y() > camera_.cy_px + kRoadBelowHorizonPx) {
+    // Road: rho is proportional to the ray's y, so each neighbour has its own depth.
+    const auto warp = [&](double du, double dv) {
+      const Eigen::Vector3d n = camera_.unproject(track.host_px + Eigen::Vector2d(du, dv));
+      return camera_.project(T_cam_host.R * n + (track.rho * n.y() / m.y()) * T_cam_host.t);
+    };
+    Eigen::Matrix2d B;
+    B << (warp(2, 0) - warp(-2, 0)) / 4.0, (warp(0, 2) - warp(0, -2)) / 4.0;
+    if (B.determinant() > 0.05 && patch.cut(host_image, host_px, inverse_of(B))) {
+      best = patch.align(image, start, kAnchorLimits);
+      on_road = best.ok();
+    }
+  }
+  if (!(track.on_road && best.ncc > kRoadNcc)) {
+    // Facing the camera: host offset = (Z / Z_host) R_roll^T offset.
+    const double scale = usable ? Y.z() : 1.0;
+    const Eigen::Matrix2f A =
+        (scale * T_cam_host.R.topLeftCorner<2, 2>().transpose()).cast<float>();
+    if (patch.cut(host_image, host_px, A)) {
+      const Alignment facing = patch.align(image, start, kAnchorLimits);
+      if (facing.ncc > best.ncc) {
+        best = facing;
+        on_road = false;
+      }
+    }
+  }
+  if (best.ncc < kMinAnchorNcc) return false;
+  track.on_road = on_road;
+  track.px = best.px.cast<double>();
+  track.xy = camera_.to_normalized(track.px);
+  return true;
+}
+
+int Tracker::anchor(const ImageView& image, TrackTable& tracks, const Window& window,
+                    const Se3& T_cam_world) {
+  std::array<Se3, kMaxFrames> T_cam_host;
+  for (const int slot : window.order()) {
+    T_cam_host[static_cast<std::size_t>(slot)] = T_cam_world * window[slot].T_cam_world.inverse();
+  }
+  tracks.sift_active([&](int index) {
+    Track& track = tracks[index];
+    return anchor_one(image, track, window.image(track.host),
+                      T_cam_host[static_cast<std::size_t>(track.host)])
+               ? TrackTable::Fate::kStay
+               : TrackTable::Fate::kRetire;
+  });
+  return static_cast<int>(tracks.active().size());
+}
+
+}  // namespace plumb::vo

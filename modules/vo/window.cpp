@@ -1,0 +1,127 @@
+#include "modules/vo/window.hpp"
+
+#include <cstring>
+
+namespace plumb::vo {
+namespace {
+
+constexpr std::size_t kRowAlignment = 32;
+constexpr std::size_t kTailBytes = 64;  // patches load whole vectors
+
+template <std::size_t N>
+int first_free(const std::array<bool, N>& used) {
+  std::size_t i = 0;
+  while (i + 1 < N && used[i]) ++i;
+  return static_cast<int>(i);
+}
+
+}  // namespace
+
+Window::Window(int width_px, int height_px) {
+  const std::size_t stride =
+      (static_cast<std::size_t>(width_px) + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
+  const std::size_t bytes = stride * static_cast<std::size_t>(height_px) + kTailBytes;
+  pixels_.resize(bytes * views_.size());
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    views_[i] = {pixels_.data() + i * bytes, width_px, height_px,
+                 static_cast<std::ptrdiff_t>(stride)};
+  }
+}
+
+void Window::clear() {
+  used_.fill(false);
+  image_used_.fill(false);
+  order_.clear();
+  num_keyframes_ = 0;
+  num_history_ = 0;
+}
+
+int Window::add(std::int64_t seq, const Se3& T_cam_world) {
+  const int slot = first_free(used_);
+  used_[static_cast<std::size_t>(slot)] = true;
+  (*this)[slot] = {seq, T_cam_world, -1};
+  static_cast<void>(order_.push_back(slot));
+  push_history({seq, slot, Se3{}, true});
+  return slot;
+}
+
+void Window::make_keyframe(int slot, const ImageView& image) {
+  const int store = first_free(image_used_);
+  image_used_[static_cast<std::size_t>(store)] = true;
+  (*this)[slot].image = store;
+  ++num_keyframes_;
+  const ImageView& view = views_[static_cast<std::size_t>(store)];
+  std::uint8_t* to = pixels_.data() + (view.data - pixels_.data());
+  for (int v = 0; v < view.height_px; ++v) {
+    std::memcpy(to + v * view.stride_bytes, image.row(v), static_cast<std::size_t>(view.width_px));
+  }
+}
+
+void Window::remove(int slot) {
+  FixedVector<int, kMaxFrames> rest;
+  int heir = -1;  // the next frame in time, or the last one left
+  bool passed = false;
+  bool found_next = false;
+  for (const int other : order_) {
+    if (other == slot) {
+      passed = true;
+      continue;
+    }
+    static_cast<void>(rest.push_back(other));
+    if (!found_next) heir = other;
+    found_next = passed;
+  }
+  if (heir >= 0) {
+    const Se3 T_slot_heir = (*this)[slot].T_cam_world * (*this)[heir].T_cam_world.inverse();
+    for (int i = 0; i < num_history_; ++i) {
+      Past& past = history_[static_cast<std::size_t>(i)];
+      if (past.slot != slot) continue;
+      past.T_cam_slot = past.T_cam_slot * T_slot_heir;
+      past.slot = heir;
+    }
+  }
+  order_ = rest;
+  used_[static_cast<std::size_t>(slot)] = false;
+  if ((*this)[slot].is_keyframe()) {
+    image_used_[static_cast<std::size_t>((*this)[slot].image)] = false;
+    (*this)[slot].image = -1;
+    --num_keyframes_;
+  }
+}
+
+int Window::newest_keyframe() const {
+  int found = -1;
+  for (const int slot : order_) {
+    if ((*this)[slot].is_keyframe()) found = slot;
+  }
+  return found;
+}
+
+int Window::oldest_keyframe() const {
+  for (const int slot : order_) {
+    if ((*this)[slot].is_keyframe()) return slot;
+  }
+  return -1;
+}
+
+int Window::stale_frame() const {
+  for (std::size_t i = 0; i + kNumRecent < order_.size(); ++i) {
+    if (!(*this)[order_[i]].is_keyframe()) return order_[i];
+  }
+  return -1;
+}
+
+void Window::remember(std::int64_t seq, const Se3& T_cam_world, bool seen) {
+  const int slot = newest();
+  push_history({seq, slot, T_cam_world * (*this)[slot].T_cam_world.inverse(), seen});
+}
+
+void Window::push_history(const Past& past) {
+  if (num_history_ < kHistory) ++num_history_;
+  for (int i = num_history_ - 1; i > 0; --i) {
+    history_[static_cast<std::size_t>(i)] = history_[static_cast<std::size_t>(i - 1)];
+  }
+  history_[0] = past;
+}
+
+}  // namespace plumb::vo
