@@ -14,6 +14,9 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Residuals of neighbouring pixels are correlated: standard deviations grow by this.
 constexpr double kPixelCorrelation = 3.0;
+// In a turn, what calibration leaves over bends the flow and looks like a tilt with a matching height: exactly the
+// direction that pixels tell worst. Grows with the path's curvature.
+constexpr double kTurnGrowth = 20.0;
 constexpr double kLeastInformation = 1e-3;
 constexpr double kDenseTiltFloorStd = 0.4 * kDegree;
 constexpr double kDenseLnHeightFloorStd = 0.03;
@@ -21,6 +24,13 @@ constexpr double kPointsLnHeightStd = 0.04;
 constexpr double kPointsHalfTrust =
     10.0;  // inliers at which the variance has halved towards its floor
 constexpr double kTravelStd = 0.3 * kDegree;
+// Images nearer together than this see the same road again; their errors are the same errors.
+constexpr double kIndependentStepRatio = 0.6;
+
+/// How many images share one independent view of the road.
+double repetition(const CueContext& context) {
+  return std::max(1.0, kIndependentStepRatio / std::max(1e-6, context.step_ratio));
+}
 
 }  // namespace
 
@@ -29,20 +39,23 @@ Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q) {
   return {q.x() / norm, q.z() / norm, -std::log(norm)};
 }
 
-Eigen::Matrix3d FloorCovariance::dense(const DenseObservation& dense) const {
+Eigen::Matrix3d FloorCovariance::dense(const DenseObservation& dense,
+                                       const CueContext& context) const {
+  const double correlation = kPixelCorrelation * (1.0 + kTurnGrowth * context.turn_ratio);
   const Eigen::Matrix3d J = plane_jacobian(state_of_plane(dense.q));
   const Eigen::Matrix3d information =
-      J.transpose() * dense.information * J / (kPixelCorrelation * kPixelCorrelation) +
+      J.transpose() * dense.information * J / (correlation * correlation) +
       kLeastInformation * Eigen::Matrix3d::Identity();
   Eigen::Matrix3d cov = information.inverse();
   cov(0, 0) += kDenseTiltFloorStd * kDenseTiltFloorStd;
   cov(1, 1) += kDenseTiltFloorStd * kDenseTiltFloorStd;
   cov(2, 2) += kDenseLnHeightFloorStd * kDenseLnHeightFloorStd;
-  return cov;
+  return repetition(context) * cov;
 }
 
-double FloorCovariance::points(const PointsObservation& points) const {
-  return kPointsLnHeightStd * kPointsLnHeightStd * (1.0 + kPointsHalfTrust / points.num_inliers);
+double FloorCovariance::points(const PointsObservation& points, const CueContext& context) const {
+  return repetition(context) * kPointsLnHeightStd * kPointsLnHeightStd *
+         (1.0 + kPointsHalfTrust / points.num_inliers);
 }
 
 double FloorCovariance::travel(const Travel& /*travel*/) const { return kTravelStd * kTravelStd; }

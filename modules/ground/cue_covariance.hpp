@@ -11,13 +11,21 @@
 
 namespace plumb {
 
+/// What is known about the frame besides the cues themselves.
+struct CueContext {
+  double turn_ratio = 0.0;  ///< |curvature of the path| times camera height
+  double step_ratio = 1.0;  ///< motion since the previous image, in camera heights
+};
+
 class CueCovariance {
  public:
   virtual ~CueCovariance() = default;
   /// Of (n1, n3, ln h) out of the dense cue. @pre dense.ok
-  [[nodiscard]] virtual Eigen::Matrix3d dense(const DenseObservation& dense) const = 0;
+  [[nodiscard]] virtual Eigen::Matrix3d dense(const DenseObservation& dense,
+                                              const CueContext& context) const = 0;
   /// Of ln(n . centre). @pre points.ok
-  [[nodiscard]] virtual double points(const PointsObservation& points) const = 0;
+  [[nodiscard]] virtual double points(const PointsObservation& points,
+                                      const CueContext& context) const = 0;
   /// Of n . direction. @pre travel.valid
   [[nodiscard]] virtual double travel(const Travel& travel) const = 0;
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
@@ -29,8 +37,10 @@ class CueCovariance {
 /// shape.
 class FloorCovariance final : public CueCovariance {
  public:
-  [[nodiscard]] Eigen::Matrix3d dense(const DenseObservation& dense) const override;
-  [[nodiscard]] double points(const PointsObservation& points) const override;
+  [[nodiscard]] Eigen::Matrix3d dense(const DenseObservation& dense,
+                                      const CueContext& context) const override;
+  [[nodiscard]] double points(const PointsObservation& points,
+                              const CueContext& context) const override;
   [[nodiscard]] double travel(const Travel& travel) const override;
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;

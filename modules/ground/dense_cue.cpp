@@ -14,6 +14,8 @@ namespace {
 constexpr double kShortBaseline = 0.45;
 constexpr double kLongBaseline = 1.3;
 constexpr double kLongestBaseline = 4.0;
+// Beyond this turn the road has left its place in the image, and calibration errors no longer cancel.
+constexpr double kLargestTurnRad = 8.0 * std::numbers::pi / 180.0;
 
 constexpr int kSweepSteps = 13;
 constexpr int kSweepLevel = 1;
@@ -52,8 +54,8 @@ struct DenseCue::Solution {
 
   /// Normal equations of all pairs and priors at the current values. False when too few pixels are
   /// seen.
-  bool linearise(const RoadPixels& pixels, const std::array<PairSums, kMaxImagePairs>& sums,
-                 std::size_t num_pairs, ParamMatrix* H, ParamVector* b);
+  bool linearise(const std::array<PairSums, kMaxImagePairs>& sums, std::size_t num_pairs,
+                 ParamMatrix* H, ParamVector* b);
   void add_normal_prior(const Eigen::Vector3d& normal, ParamMatrix* H, ParamVector* b) const;
 };
 
@@ -65,6 +67,7 @@ ImagePairs choose_image_pairs(const VoOutput& vo, const ImageRing& ring, double 
     const double baseline = pose.T_window_cam.t.norm() / height;
     const double wanted = pairs.empty() ? kShortBaseline : kLongBaseline;
     if (baseline < wanted || baseline > kLongestBaseline) continue;
+    if (!pairs.empty() && log_so3(pose.T_window_cam.R).norm() > kLargestTurnRad) continue;
     (void)pairs.push_back({image, pose.T_window_cam});
   }
   return pairs;
@@ -87,7 +90,7 @@ DenseObservation DenseCue::measure(const Pyramid& now, const ImagePairs& pairs,
   out.information = solution.information;
   out.sigma_grey = solution.sigma_grey;
   out.num_pixels = solution.num_pixels;
-  rate(now, pairs, &out);
+  rate(pairs, &out);
   const double ratio = 1.0 / (solution.q.norm() * request.height);
   const double cosine = solution.q.normalized().dot(request.normal_cam);
   out.ok = ratio > 0.4 && ratio < 2.5 && cosine > std::cos(kLargestTilt);
@@ -125,8 +128,7 @@ double DenseCue::sweep(const Pyramid& now, const ImagePairs& pairs, const DenseR
   return best_height;
 }
 
-bool DenseCue::Solution::linearise(const RoadPixels& /*pixels*/,
-                                   const std::array<PairSums, kMaxImagePairs>& sums,
+bool DenseCue::Solution::linearise(const std::array<PairSums, kMaxImagePairs>& sums,
                                    std::size_t num_pairs, ParamMatrix* H, ParamVector* b) {
   H->setIdentity();
   b->setZero();
@@ -183,7 +185,7 @@ bool DenseCue::refine(int level, const Pyramid& now, const ImagePairs& pairs,
     }
     ParamMatrix H;
     ParamVector b;
-    if (!solution->linearise(pixels_, sums, pairs.size(), &H, &b)) return false;
+    if (!solution->linearise(sums, pairs.size(), &H, &b)) return false;
     solution->add_normal_prior(request.normal_cam, &H, &b);
     const ParamVector step = H.ldlt().solve(b);
     if (!step.allFinite()) return false;
@@ -201,8 +203,7 @@ bool DenseCue::refine(int level, const Pyramid& now, const ImagePairs& pairs,
 }
 
 /// Likeness at the solution, on the finest level's pixels.
-void DenseCue::rate(const Pyramid& now, const ImagePairs& pairs, DenseObservation* out) {
-  (void)now;
+void DenseCue::rate(const ImagePairs& pairs, DenseObservation* out) {
   const LevelCamera camera = camera_of_level(camera_, 0);
   double weight = 0.0;
   for (const ImagePair& pair : pairs) {

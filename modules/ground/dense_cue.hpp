@@ -66,7 +66,7 @@ class DenseCue {
                DenseObservation* out);
   bool refine(int level, const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request,
               Solution* solution);
-  void rate(const Pyramid& now, const ImagePairs& pairs, DenseObservation* out);
+  void rate(const ImagePairs& pairs, DenseObservation* out);
 
   CameraModel camera_;
   int num_levels_;

@@ -89,6 +89,7 @@ struct GroundEstimator::Impl {
     double height = 0.0;                                    ///< expected [vo]
     DenseObservation dense;
     PointsObservation points;
+    CueContext context;
     CueStatus dense_status = CueStatus::kAbsent;
     CueStatus points_status = CueStatus::kAbsent;
     double var_before = 0.0;  ///< of ln h, before the cues
@@ -176,8 +177,10 @@ bool GroundEstimator::Impl::prepare_plane(const VoOutput& vo) {
     frame.height =
         enough ? std::exp(first.ln_height) : points_cue.rough_height(vo, frame.normal_cam);
   }
-  frame.searched =
-      frame.height > 0.0 && frame.travel.chord_length > kShortestChordRatio * frame.height;
+  if (!(frame.height > 0.0)) return false;
+  frame.context = {std::abs(frame.travel.curvature) * frame.height,
+                   frame.travel.step / frame.height};
+  frame.searched = frame.travel.chord_length > kShortestChordRatio * frame.height;
   return frame.searched;
 }
 
@@ -225,11 +228,12 @@ void GroundEstimator::Impl::fuse() {
   filter.observe_level_roll();
   filter.observe_travel(frame.travel.direction, covariance.travel(frame.travel));
   if (frame.dense_status == CueStatus::kUsed &&
-      !filter.observe_plane(state_of_plane(frame.dense.q), covariance.dense(frame.dense))) {
+      !filter.observe_plane(state_of_plane(frame.dense.q),
+                            covariance.dense(frame.dense, frame.context))) {
     frame.dense_status = CueStatus::kGated;
   }
   if (frame.points_status == CueStatus::kUsed &&
-      !filter.observe_point(frame.points.centre, covariance.points(frame.points))) {
+      !filter.observe_point(frame.points.centre, covariance.points(frame.points, frame.context))) {
     frame.points_status = CueStatus::kGated;
   }
   filter.end_frame(frame.height_measured(), frame.height_refused());
@@ -242,7 +246,7 @@ void GroundEstimator::Impl::write_cues() {
   dense.status = frame.dense_status;
   if (frame.dense.ok) {
     const Eigen::Vector3d state = state_of_plane(frame.dense.q);
-    const Eigen::Matrix3d cov = covariance.dense(frame.dense);
+    const Eigen::Matrix3d cov = covariance.dense(frame.dense, frame.context);
     const double height = std::exp(state(2));
     dense = {
         frame.dense_status,          height,    state(0),  state(1),
@@ -252,7 +256,8 @@ void GroundEstimator::Impl::write_cues() {
   points.status = frame.points_status;
   if (frame.points.ok) {
     points.height = std::exp(frame.points.ln_height);
-    points.height_var = points.height * points.height * covariance.points(frame.points);
+    points.height_var =
+        points.height * points.height * covariance.points(frame.points, frame.context);
     points.quality = covariance.points_quality(frame.points);
   }
 }
@@ -287,10 +292,11 @@ void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
   };
   if (frame.dense_status == CueStatus::kUsed) {
     add(std::log(height_given_normal(frame.dense, plane.normal_cam)),
-        covariance.dense(frame.dense)(2, 2));
+        covariance.dense(frame.dense, frame.context)(2, 2));
   }
   if (frame.points_status == CueStatus::kUsed) {
-    add(std::log(plane.normal_cam.dot(frame.points.centre)), covariance.points(frame.points));
+    add(std::log(plane.normal_cam.dot(frame.points.centre)),
+        covariance.points(frame.points, frame.context));
   }
   const double ln_ratio = measured ? sum / information - filter.state()(2) : 0.0;
   plane.height_m = camera_height_m * std::exp(ln_ratio);

@@ -18,8 +18,9 @@ constexpr double kStartLnHeightStd = 0.1;
 // heights).
 constexpr double kTurnNoise = 0.05 * kDegree;
 constexpr double kCurvatureNoise = 0.08 * kDegree;
-// ln h: drift of VO's scale per reference step.
+// ln h: drift of VO's scale per reference step, and per square root of a radian turned.
 constexpr double kScaleDrift = 0.004;
+constexpr double kTurnScaleDrift = 0.01;
 constexpr double kReferenceStepRatio = 0.6;
 constexpr double kLargestNoiseSteps = 2.0;
 
@@ -90,7 +91,8 @@ void PlaneFilter::predict(const Eigen::Matrix3d& R_prev_cam, double step_ratio) 
   P_ = F * P_ * F.transpose();
   P_(0, 0) += tilt * tilt;
   P_(1, 1) += tilt * tilt;
-  P_(2, 2) += kScaleDrift * kScaleDrift * steps;
+  const double turned_rad = log_so3(R_prev_cam).norm();
+  P_(2, 2) += kScaleDrift * kScaleDrift * steps + kTurnScaleDrift * kTurnScaleDrift * turned_rad;
 }
 
 bool PlaneFilter::update_scalar(const Eigen::RowVector3d& H, double residual, double var,
