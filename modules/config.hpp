@@ -4,6 +4,7 @@
 
 #include "modules/camera/camera_config.hpp"
 #include "modules/can/can_config.hpp"
+#include "modules/detections/detections_config.hpp"
 #include "modules/ground/ground_config.hpp"
 #include "modules/vo/vo_config.hpp"
 
@@ -12,6 +13,7 @@ namespace plumb {
 struct PlumbConfig {
   CameraConfig camera;
   VoConfig vo;
+  DetectionsConfig detections;
   GroundConfig ground;
   CanConfig can;
 
@@ -19,6 +21,7 @@ struct PlumbConfig {
   static void visit(Config& c, Visit&& field) {
     CameraConfig::visit(c.camera, field);
     VoConfig::visit(c.vo, field);
+    DetectionsConfig::visit(c.detections, field);
     GroundConfig::visit(c.ground, field);
     CanConfig::visit(c.can, field);
   }
