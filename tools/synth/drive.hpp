@@ -1,0 +1,61 @@
+/// The vehicle's motion: along the route, on its springs, over a rough road.
+///
+/// Frames  map; veh: x forward, y left, z up, on the road under the rear axle; cam: x right, y down, z forward.
+///         Pitch is positive with the nose down, roll with the right side down (ISO 8855).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/geometry/se3.hpp"
+#include "tools/synth/route.hpp"
+#include "tools/synth/terrain.hpp"
+
+namespace plumb::synth {
+
+struct MountConfig {
+  double height_m = 1.65;  ///< optical centre above the road, vehicle at rest
+  double ahead_m = 1.68;   ///< before the rear axle
+  double pitch_rad = 0.0;  ///< nose down
+  double roll_rad = 0.0;   ///< right side down
+  double yaw_rad = 0.0;    ///< to the left
+};
+
+struct DriveConfig {
+  MountConfig mount;
+  double suspension = 1.0;      ///< scales every motion on the springs; 0 = rigid
+  double yaw_rate_rad_s = 0.0;  ///< turntable: added rotation about the vertical, for pure rotation
+  std::uint64_t seed = 1;
+};
+
+struct VehicleState {
+  double s_m = 0.0;
+  double speed_m_s = 0.0;
+  double accel_m_s2 = 0.0;
+  double yaw_rate_rad_s = 0.0;
+  double z_m = 0.0;      ///< of the body's reference above map zero: mean road height plus heave
+  double heave_m = 0.0;  ///< of the body against the road
+  double pitch_rad = 0.0;
+  double roll_rad = 0.0;
+};
+
+class Drive {
+ public:
+  /// Integrates the whole drive. @pre route.schedule is filled
+  Drive(const Terrain& terrain, const DriveConfig& config);
+
+  [[nodiscard]] VehicleState state(double time_s) const;
+  [[nodiscard]] Se3 T_map_veh(double time_s) const;
+  [[nodiscard]] Se3 T_map_cam(double time_s) const;
+  [[nodiscard]] double duration_s() const;
+
+ private:
+  void integrate();
+
+  const Terrain* terrain_;
+  DriveConfig config_;
+  Se3 T_veh_cam_;
+  std::vector<VehicleState> states_;  ///< every Schedule::kTimeStep
+};
+
+}  // namespace plumb::synth

@@ -1,0 +1,44 @@
+/// Rays from one place against the terrain: what each direction sees first, crests included.
+///
+/// Frames  map. Memory  rebuilt by build(); queries allocate nothing.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "tools/synth/primitive.hpp"
+#include "tools/synth/terrain.hpp"
+
+namespace plumb::synth {
+
+enum class GroundPart : std::uint8_t { kRoad, kKerbFace, kBeside };
+
+struct GroundHit {
+  double t = 1e30;
+  GroundPart part = GroundPart::kRoad;
+  double edge_m = 0.0;  ///< signed distance to the road edge
+};
+
+class GroundRays {
+ public:
+  /// Looks from `origin` over headings within `half_view_rad` of `yaw_rad`.
+  void build(const Terrain& terrain, const Eigen::Vector3d& origin, double yaw_rad,
+             double half_view_rad);
+
+  /// First ground along a ray that starts near the origin. False: sky.
+  bool intersect(const Ray& ray, GroundHit& hit) const;
+
+ private:
+  bool resolve_kerb(const Ray& ray, double closing, GroundHit& hit) const;
+
+  const Terrain* terrain_ = nullptr;
+  double yaw_rad_ = 0.0;
+  double first_azimuth_rad_ = 0.0;
+  int num_azimuths_ = 0;
+  std::vector<double> ranges_m_;
+  std::vector<float>
+      steepest_;  ///< running maximum of (height - eye) / range, per azimuth and range
+};
+
+}  // namespace plumb::synth

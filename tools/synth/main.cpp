@@ -1,0 +1,71 @@
+/// Command line -> a rendered drive in a folder
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "tools/synth/options.hpp"
+#include "tools/synth/writer.hpp"
+
+namespace {
+
+std::atomic<bool> g_stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+void on_signal(int /*signal*/) { g_stop = true; }
+
+void list_routes() {
+  for (const auto& [name, text] : plumb::synth::builtin_routes())
+    std::printf("%-12s %s\n", name.c_str(), text.c_str());
+}
+
+int render(plumb::synth::Options& options) {
+  plumb::synth::complete(options);
+  const plumb::synth::Studio studio(options.config);
+  plumb::synth::prepare_folder(options.config.out, options.force);
+  const int frames = studio.num_frames();
+  const auto progress = [&](int done) {
+    if (!options.quiet) std::fprintf(stderr, "\rplumb-synth: frame %d of %d", done, frames);
+  };
+  const plumb::synth::WriteResult result =
+      plumb::synth::write_drive(studio, options.threads, g_stop, progress);
+  if (!options.quiet) {
+    std::fprintf(stderr, "\rplumb-synth: %d frames in %.1f s (%.1f per second) in %s\n",
+                 result.frames, result.seconds, result.frames / result.seconds,
+                 options.config.out.c_str());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  CLI::App app{"Renders drives with exact truth, in KITTI odometry layout", "plumb-synth"};
+  plumb::synth::Options options;
+  bool list = false;
+  app.set_version_flag("--version", PLUMB_VERSION);
+  app.add_flag("--list-routes", list, "name the built-in routes and exit");
+  plumb::synth::declare(app, options);
+  try {
+    app.parse(argc, argv);
+    if (list) {
+      list_routes();
+      return 0;
+    }
+    return render(options);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
+    return 2;
+  } catch (const plumb::synth::UsageError& error) {
+    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
+    return 2;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
+    return 1;
+  }
+}

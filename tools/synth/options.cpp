@@ -1,0 +1,225 @@
+#include "tools/synth/options.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "tools/synth/random.hpp"
+
+namespace plumb::synth {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kUnset = 1e8;
+
+void parse_size(const std::string& text, CameraModel& camera) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 64 ||
+      height < 48 || width > 4096 || height > 3072) {
+    throw UsageError("--size " + text + " is not WIDTHxHEIGHT between 64x48 and 4096x3072");
+  }
+  camera.width_px = width;
+  camera.height_px = height;
+}
+
+DarkSpan parse_span(const char* option, const std::string& text, double light, double fade_s) {
+  if (text.empty()) return {};
+  double from = 0.0;
+  double to = 0.0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf%c", &from, &to, &rest) != 2 || from < 0.0 || to <= from) {
+    throw UsageError(std::string(option) + " " + text + " is not FROM:TO in seconds");
+  }
+  return {from, to, light, fade_s};
+}
+
+void declare_drive(CLI::App& app, Options& o) {
+  SynthConfig& c = o.config;
+  app.add_option("--route", c.route, "built-in route (--list-routes)")->capture_default_str();
+  app.add_option("--poses", c.poses,
+                 "drive along this KITTI pose file instead; surroundings grow beside it");
+  app.add_option("--start", c.first_row, "first row of the pose file")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--end", c.last_row, "last row of the pose file, -1 = its end")
+      ->capture_default_str();
+  app.add_option("--source-rate", c.source_rate_hz, "rows per second of the pose file")
+      ->check(CLI::Range(1.0, 200.0))
+      ->capture_default_str();
+  app.add_option("--frames", c.frames, "frames to render (less when the pose file is shorter)")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--rate", c.rate_hz, "frames per second")
+      ->check(CLI::Range(1.0, 120.0))
+      ->capture_default_str();
+  app.add_option("--seed", c.seed, "everything random follows from it")->capture_default_str();
+  app.add_option("--suspension", c.drive.suspension,
+                 "scale of the motion on the springs, 0 = rigid")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  app.add_option("--turntable", c.drive.yaw_rate_rad_s, "added rotation about the vertical, rad/s")
+      ->check(CLI::Range(-3.0, 3.0))
+      ->capture_default_str();
+  app.add_option("--bumps", c.bumps, "speed bumps along the way")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  app.add_flag("--flat", c.flat, "no slopes, no crown: the road is one plane");
+  app.add_option("--traffic", c.scene.traffic, "moving vehicles")
+      ->check(CLI::Range(0, 200))
+      ->capture_default_str();
+  app.add_option("--lead", c.scene.lead, "vehicle ahead of us")
+      ->check(CLI::IsMember({"none", "car", "truck"}))
+      ->capture_default_str();
+  app.add_option("--lead-gap", c.scene.lead_gap_m, "its distance at rest, m")
+      ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+}
+
+void declare_camera(CLI::App& app, Options& o) {
+  SynthConfig& c = o.config;
+  app.add_option("--size", o.size, "image size")->capture_default_str();
+  app.add_option("--focal", o.focal_px, "focal length in pixels, 0 = KITTI's field of view")
+      ->check(CLI::Range(0.0, 10000.0))
+      ->capture_default_str();
+  app.add_option("--camera-height", c.drive.mount.height_m, "m above the road")
+      ->check(CLI::Range(0.3, 4.0))
+      ->capture_default_str();
+  app.add_option("--mount-pitch", o.mount_pitch_deg,
+                 "degrees nose down; default from the seed, sd 0.5")
+      ->check(CLI::Range(-15.0, 15.0));
+  app.add_option("--mount-roll", o.mount_roll_deg,
+                 "degrees right side down; default from the seed, sd 0.5")
+      ->check(CLI::Range(-15.0, 15.0));
+  app.add_option("--mount-yaw", o.mount_yaw_deg,
+                 "degrees to the left; default from the seed, sd 0.3")
+      ->check(CLI::Range(-15.0, 15.0));
+  app.add_option("--residual-k1", c.render.camera.residual_k1,
+                 "radial distortion left in the images")
+      ->check(CLI::Range(-0.1, 0.1))
+      ->capture_default_str();
+  app.add_option("--exposure", c.render.exposure_s, "exposure time, s: motion blur")
+      ->check(CLI::Range(0.0, 0.1))
+      ->capture_default_str();
+  app.add_option("--rolling-shutter", c.render.readout_s, "time from the first row to the last, s")
+      ->check(CLI::Range(0.0, 0.1))
+      ->capture_default_str();
+  app.add_option("--blur", c.sensor.blur_px, "lens blur, sigma in pixels")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  app.add_option("--gain", c.sensor.gain, "grey levels per unit of light")
+      ->check(CLI::Range(1.0, 5000.0))
+      ->capture_default_str();
+  app.add_option("--noise", c.sensor.read_noise, "read noise, grey levels")
+      ->check(CLI::Range(0.0, 50.0))
+      ->capture_default_str();
+  app.add_option("--shot-noise", c.sensor.shot_noise, "noise variance per grey level")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  app.add_option("--vignetting", c.sensor.vignetting, "loss of light in the corners")
+      ->check(CLI::Range(0.0, 0.9))
+      ->capture_default_str();
+  app.add_option("--exposure-drift", c.sensor.gain_drift,
+                 "slow wandering of the exposure, sd of its logarithm")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--exposure-step", c.sensor.step_factor,
+                 "factor by which the exposure jumps back and forth")
+      ->check(CLI::Range(0.1, 10.0))
+      ->capture_default_str();
+  app.add_option("--exposure-step-every", c.sensor.step_every_s,
+                 "s between jumps; 0 = 4 s when --exposure-step is given")
+      ->check(CLI::Range(0.0, 1000.0));
+  app.add_option("--samples", c.render.edge_samples, "extra rays where the picture changes")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+}
+
+void declare_weather(CLI::App& app, Options& o) {
+  SynthConfig& c = o.config;
+  app.add_option("--sun-elevation", o.sun_deg, "degrees")
+      ->check(CLI::Range(2.0, 90.0))
+      ->capture_default_str();
+  app.add_option("--sun-azimuth", o.sun_azimuth_deg,
+                 "degrees, counted left of the first heading; default from the seed")
+      ->check(CLI::Range(-360.0, 360.0));
+  app.add_flag("--overcast", o.overcast, "no direct sun");
+  app.add_option("--road-contrast", c.ground.road_contrast, "scale of the asphalt's texture")
+      ->check(CLI::Range(0.0, 3.0))
+      ->capture_default_str();
+  app.add_option("--marking-wear", c.ground.marking_wear, "0 fresh, 1 nearly gone")
+      ->check(CLI::Range(0.0, 1.5))
+      ->capture_default_str();
+  app.add_option("--wet", c.ground.wetness, "0 dry .. 1 covered by water")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--haze", c.light.haze_m, "m over which contrast falls to 1/e")
+      ->check(CLI::Range(10.0, 1e6))
+      ->capture_default_str();
+  app.add_option("--tunnel", o.tunnel, "FROM:TO in s: a tenth of the light");
+  app.add_option("--covered", o.covered, "FROM:TO in s: the lens is covered");
+}
+
+}  // namespace
+
+void declare(CLI::App& app, Options& o) {
+  o.config.sensor.step_factor = 1.0;
+  app.add_option("--out", o.config.out, "folder to write, in KITTI odometry layout");
+  app.add_option("--threads", o.threads, "workers, 0 = one per core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  app.add_flag("--force", o.force,
+               "write into a folder that is not empty; a former drive there is removed");
+  app.add_flag("--quiet", o.quiet, "no progress");
+  declare_drive(app, o);
+  declare_camera(app, o);
+  declare_weather(app, o);
+}
+
+void complete(Options& o) {
+  SynthConfig& c = o.config;
+  if (c.out.empty()) throw UsageError("--out DIR is required");
+  CameraModel& camera = c.render.camera;
+  parse_size(o.size, camera);
+  camera.fx_px = o.focal_px > 0.0 ? o.focal_px : 721.5377 * camera.width_px / 1242.0;
+  camera.fy_px = camera.fx_px;
+  camera.cx_px = 0.4908 * camera.width_px;  // as in KITTI: not the middle
+  camera.cy_px = 0.4609 * camera.height_px;
+  camera.camera_height_m = c.drive.mount.height_m;
+  if (c.last_row >= 0 && c.last_row <= c.first_row)
+    throw UsageError("--end must be greater than --start");
+  if (c.poses.empty() && (c.first_row != 0 || c.last_row != -1))
+    throw UsageError("--start and --end go with --poses");
+  c.tunnel = parse_span("--tunnel", o.tunnel, 0.1, 0.4);
+  c.covered = parse_span("--covered", o.covered, 0.0, 0.05);
+  if (c.sensor.step_factor != 1.0 && c.sensor.step_every_s <= 0.0) c.sensor.step_every_s = 4.0;
+
+  Random random(hash_keys(c.seed, 0x3072));
+  const auto tilt = [&](double wish_deg, double sigma_deg) {
+    const double drawn = sigma_deg * random.normal();
+    return kDegree * (std::abs(wish_deg) < kUnset ? wish_deg : drawn);
+  };
+  c.drive.mount.pitch_rad = tilt(o.mount_pitch_deg, 0.5);
+  c.drive.mount.roll_rad = tilt(o.mount_roll_deg, 0.5);
+  c.drive.mount.yaw_rad = tilt(o.mount_yaw_deg, 0.3);
+  const double drawn_azimuth = random.uniform(0.0, 360.0);
+  c.light.sun_azimuth_rad =
+      kDegree *
+      (o.sun_azimuth_deg >= 0.0 || o.sun_azimuth_deg < -1.0 ? o.sun_azimuth_deg : drawn_azimuth);
+  c.light.sun_elevation_rad = kDegree * o.sun_deg;
+  if (o.overcast) {
+    c.light.sun = 0.0;
+    c.light.sky = 1.3;
+    c.light.clouds = 1.0;
+  }
+  c.drive.seed = c.seed;
+  c.scene.seed = c.seed;
+  c.ground.seed = c.seed;
+  c.sensor.seed = c.seed;
+  if (o.threads == 0)
+    o.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+}  // namespace plumb::synth

@@ -1,0 +1,34 @@
+/// The command line of plumb-synth.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "tools/synth/synth_config.hpp"
+
+namespace plumb::synth {
+
+struct Options {
+  SynthConfig config;
+  int threads = 0;
+  bool force = false;
+  bool quiet = false;
+  std::string size = "1242x375";
+  std::string tunnel;
+  std::string covered;
+  double sun_deg = 35.0;
+  double sun_azimuth_deg = -1.0;
+  double mount_pitch_deg = 1e9;
+  double mount_roll_deg = 1e9;
+  double mount_yaw_deg = 1e9;
+  double focal_px = 0.0;
+  bool overcast = false;
+};
+
+/// Declares every option of rendering on `app`.
+void declare(CLI::App& app, Options& options);
+
+/// Fills what depends on other options. Throws UsageError in one sentence.
+void complete(Options& options);
+
+}  // namespace plumb::synth

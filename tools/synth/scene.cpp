@@ -1,0 +1,91 @@
+#include "tools/synth/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/synth/random.hpp"
+
+namespace plumb::synth {
+
+Scene::Scene(const Terrain& terrain, const Drive& drive, const SceneConfig& config)
+    : terrain_(&terrain), drive_(&drive) {
+  add_scenery(terrain, config.seed, still_, parked_);
+  plan_traffic(config);
+}
+
+void Scene::plan_traffic(const SceneConfig& config) {
+  Random random(hash_keys(config.seed, 0x7aff));
+  const Route& route = terrain_->route();
+  const bool motorway = route.setting.guard_rail;
+  if (config.lead != "none") {
+    Mover lead;
+    lead.kind = config.lead == "truck" ? VehicleKind::kTruck : VehicleKind::kCar;
+    lead.seed = static_cast<std::uint32_t>(random.next());
+    lead.leads = true;
+    lead.headway_s = 0.9;
+    lead.s_m = config.lead_gap_m;
+    movers_.push_back(lead);
+  }
+  const double travelled = route.schedule.s_m.back() - route.schedule.s_m.front();
+  const double mean_speed = travelled / std::max(1.0, drive_->duration_s());
+  for (int i = 0; i < config.traffic; ++i) {
+    Mover mover;
+    mover.kind = random.chance(motorway ? 0.25 : 0.08) ? VehicleKind::kTruck
+                 : random.chance(0.15)                 ? VehicleKind::kVan
+                                                       : VehicleKind::kCar;
+    mover.seed = static_cast<std::uint32_t>(random.next());
+    if (motorway) {
+      const bool overtaking = random.chance(0.6) && mover.kind != VehicleKind::kTruck;
+      mover.lateral_m = overtaking ? 3.7 : 0.0;
+      mover.speed_m_s =
+          mean_speed * (overtaking ? random.uniform(1.05, 1.25) : random.uniform(0.97, 1.02));
+      mover.s_m = route.start_m + (overtaking ? random.uniform(-60.0, 60.0)
+                                              : 35.0 + 45.0 * i + random.uniform(0.0, 15.0));
+    } else {
+      mover.lateral_m = std::min(3.4, route.setting.left_m - 1.4);
+      mover.speed_m_s = -random.uniform(6.0, 12.0);
+      // Spread so that they meet us over the whole drive.
+      const double share = (i + random.uniform(0.1, 0.9)) / config.traffic;
+      mover.s_m = route.start_m + 30.0 + share * (travelled + 10.0 * drive_->duration_s());
+    }
+    movers_.push_back(mover);
+  }
+}
+
+ObjectPose Scene::pose_of(const Mover& mover, double time_s) const {
+  const Route& route = terrain_->route();
+  const auto along = [&](double t) {
+    if (!mover.leads) return mover.s_m + mover.speed_m_s * t;
+    return drive_->state(t + mover.headway_s).s_m + mover.s_m +
+           0.5 * vehicle_size(mover.kind, mover.seed).x() + 3.0;
+  };
+  const auto place = [&](double t) {
+    const RoutePoint at = route.at(along(t));
+    const Eigen::Vector2d left(-std::sin(at.yaw_rad), std::cos(at.yaw_rad));
+    return Eigen::Vector2d(at.p_map + mover.lateral_m * left);
+  };
+  ObjectPose pose;
+  pose.kind = mover.kind;
+  pose.size_m = vehicle_size(mover.kind, mover.seed);
+  const double yaw =
+      route.at(along(time_s)).yaw_rad + (mover.speed_m_s < 0.0 ? 3.14159265358979 : 0.0);
+  pose.T_map_object = stand_on(*terrain_, place(time_s), yaw);
+  constexpr double kDt = 0.02;
+  const Eigen::Vector2d v = (place(time_s + kDt) - place(time_s - kDt)) / (2.0 * kDt);
+  pose.velocity = {v.x(), v.y(), 0.0};
+  return pose;
+}
+
+void Scene::moving(double time_s, std::vector<Primitive>& solids,
+                   std::vector<ObjectPose>& objects) const {
+  for (const Mover& mover : movers_) {
+    const ObjectPose pose = pose_of(mover, time_s);
+    const double s = mover.leads ? 100.0 : mover.s_m + mover.speed_m_s * time_s;
+    objects.push_back(pose);
+    if (s < 8.0 || s > terrain_->route().length_m() - 8.0) continue;  // off the map
+    add_vehicle(pose, mover.seed, static_cast<std::int32_t>(parked_.size() + objects.size() - 1),
+                solids);
+  }
+}
+
+}  // namespace plumb::synth

@@ -1,0 +1,55 @@
+#include "tools/synth/studio.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/synth/random.hpp"
+
+namespace plumb::synth {
+namespace {
+
+constexpr double kLeadIn = 0.1;  ///< [s] before the first frame, so that its exposure has a past
+
+Route make_route(const SynthConfig& config) {
+  const double duration_s = config.frames / config.rate_hz + kLeadIn + 0.5;
+  Route route = config.poses.empty() ? make_builtin_route(config.route, duration_s, config.seed)
+                                     : make_pose_route(config.poses, config.first_row,
+                                                       config.last_row, config.source_rate_hz,
+                                                       config.drive.mount.ahead_m, config.seed);
+  route.flat = config.flat;
+  const double travelled = route.schedule.s_m.back() - route.start_m;
+  for (int i = 0; i < config.bumps; ++i) {
+    route.bumps.push_back({route.start_m + 15.0 + (i + 0.5) * travelled / config.bumps, 0.08, 1.8});
+  }
+  return route;
+}
+
+}  // namespace
+
+double DarkSpan::factor(double time_s) const {
+  if (to_s <= from_s) return 1.0;
+  const double ramp = std::max(fade_s, 1e-9);
+  const double inside =
+      std::clamp(std::min((time_s - from_s) / ramp, (to_s - time_s) / ramp), 0.0, 1.0);
+  return 1.0 + inside * (light - 1.0);
+}
+
+Studio::Studio(const SynthConfig& config)
+    : config_(config),
+      route_(make_route(config)),
+      terrain_(route_),
+      drive_(terrain_, config.drive),
+      scene_(terrain_, drive_, config.scene),
+      textures_(config.seed),
+      lighting_(config.light, textures_),
+      ground_(terrain_, textures_, config.ground) {
+  still_shadows_.build(scene_.still(), lighting_.to_sun(), 2.0);
+}
+
+int Studio::num_frames() const {
+  const int lasting =
+      static_cast<int>(std::floor((drive_.duration_s() - kLeadIn - 0.05) * config_.rate_hz)) + 1;
+  return std::min(config_.frames, lasting);
+}
+
+}  // namespace plumb::synth
