@@ -6,7 +6,7 @@ namespace plumb {
 
 struct CanConfig {
   double stale_s = 0.3;
-  double pair_wait_s = 0.05;
+  double pair_wait_s = 0.1;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {

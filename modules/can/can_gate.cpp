@@ -1,6 +1,7 @@
 #include "modules/can/can_gate.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "modules/can/can_e2e.hpp"
 
@@ -109,31 +110,37 @@ CanGate::CanGate(const CanConfig& config)
 }
 
 void CanGate::on_ground_plane(const CanPlane& plane, std::int64_t now_us) {
-  Entry* entry = open(plane.seq, now_us);
+  Entry* entry = entry_of(plane.seq, now_us);
   if (entry == nullptr || entry->has_plane) {
     ++counters_.num_repeated;
     return;
   }
   entry->plane = plane;
   entry->has_plane = true;
-  if (entry->has_ego) close();
+  settle(*entry);
 }
 
 void CanGate::on_ego_motion(const CanEgo& ego, std::int64_t now_us) {
-  Entry* entry = open(ego.seq, now_us);
+  Entry* entry = entry_of(ego.seq, now_us);
   if (entry == nullptr || entry->has_ego) {
     ++counters_.num_repeated;
     return;
   }
   entry->ego = ego;
   entry->has_ego = true;
-  if (entry->has_plane) close();
+  settle(*entry);
 }
 
-/// The open entry of `seq`; null when that frame has been closed already.
-CanGate::Entry* CanGate::open(std::int64_t seq, std::int64_t now_us) {
+/// After a half was put into `entry`.
+void CanGate::settle(const Entry& entry) {
+  if (&entry == &open_ && entry.has_plane && entry.has_ego) close();
+  if (&entry == &current_) is_changed_ = true;
+}
+
+/// Where a half of frame `seq` belongs; null when that frame is gone.
+CanGate::Entry* CanGate::entry_of(std::int64_t seq, std::int64_t now_us) {
   if (is_open_ && open_.seq == seq) return &open_;
-  if (order_.take(seq) == SeqStep::kRepeat) return nullptr;
+  if (order_.take(seq) == SeqStep::kRepeat) return newest_closed(seq);
   if (is_open_) close();
   counters_.num_missed = order_.num_lost();
   open_ = Entry{};
@@ -141,6 +148,15 @@ CanGate::Entry* CanGate::open(std::int64_t seq, std::int64_t now_us) {
   open_.received_us = now_us;
   is_open_ = true;
   return &open_;
+}
+
+/// The frame taken last, when that was `seq` and it is still here: a late half joins it.
+CanGate::Entry* CanGate::newest_closed(std::int64_t seq) {
+  if (num_pending_ > 0) {
+    Entry& last = pending_[(first_pending_ + num_pending_ - 1) % kMaxPending];
+    return last.seq == seq ? &last : nullptr;
+  }
+  return has_current_ && current_.seq == seq ? &current_ : nullptr;
 }
 
 /// Queues the open entry, complete or not.
@@ -156,10 +172,10 @@ void CanGate::close() {
   is_open_ = false;
 }
 
-/// Moves to the next camera frame; false when none waits.
+/// Moves to the next camera frame. False when there is nothing new to send.
 bool CanGate::next(std::int64_t now_us) {
   if (is_open_ && age_us(now_us, open_.received_us) > pair_wait_us_) close();
-  if (num_pending_ == 0) return false;
+  if (is_changed_ || num_pending_ == 0) return std::exchange(is_changed_, false);
   current_ = pending_[first_pending_];
   has_current_ = true;
   first_pending_ = (first_pending_ + 1) % kMaxPending;

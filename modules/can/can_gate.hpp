@@ -87,8 +87,8 @@ struct CanPlane {
 struct CanCounters {
   std::int64_t num_frames = 0;      ///< entries whose burst was sent
   std::int64_t num_missed = 0;      ///< camera frames missing by seq
-  std::int64_t num_unpaired = 0;    ///< entries sent with one half only
-  std::int64_t num_repeated = 0;    ///< halves of a frame that was taken already: ignored
+  std::int64_t num_unpaired = 0;    ///< frames whose second half did not come in time
+  std::int64_t num_repeated = 0;    ///< halves that had been taken already: ignored
   std::int64_t num_overflowed = 0;  ///< entries dropped because the queue was full
   std::int64_t num_rejected = 0;    ///< told by the caller: messages that broke their contract
   std::int64_t num_unsent = 0;      ///< told by the caller: frames that the bus did not take
@@ -112,7 +112,7 @@ class CanGate {
 
   [[nodiscard]] const CanCounters& counters() const { return counters_; }
   /// No frame waits to be sent.
-  [[nodiscard]] bool idle() const { return num_pending_ == 0 && !is_open_; }
+  [[nodiscard]] bool idle() const { return num_pending_ == 0 && !is_open_ && !is_changed_; }
 
  private:
   struct Entry {
@@ -124,7 +124,9 @@ class CanGate {
     CanEgo ego;
   };
 
-  Entry* open(std::int64_t seq, std::int64_t now_us);
+  Entry* entry_of(std::int64_t seq, std::int64_t now_us);
+  Entry* newest_closed(std::int64_t seq);
+  void settle(const Entry& entry);
   void close();
   bool next(std::int64_t now_us);
   [[nodiscard]] CanValues compose(std::int64_t now_us) const;
@@ -138,6 +140,7 @@ class CanGate {
   bool is_open_ = false;
   Entry current_;  ///< what is repeated
   bool has_current_ = false;
+  bool is_changed_ = false;  ///< a late half joined `current_`
   LossCounter order_;
   std::int64_t start_us_ = 0;
   bool is_started_ = false;

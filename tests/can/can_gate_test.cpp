@@ -403,7 +403,7 @@ TEST_F(Gate, ModeTellsTheStateOfTheWholeChain) {
 
 TEST_F(Gate, HalfAFrameWaitsForTheOtherHalfOnlySoLong) {
   gate_.on_ego_motion(make_ego(1), now_us_);
-  tick(6);  // up to 50 ms old
+  tick(11);  // up to 100 ms old
   EXPECT_TRUE(frames_sent().empty());
   EXPECT_FALSE(gate_.idle());
   tick();
@@ -412,6 +412,44 @@ TEST_F(Gate, HalfAFrameWaitsForTheOtherHalfOnlySoLong) {
   EXPECT_TRUE(std::isnan(sink_.newest().plane_validity));
   expect_all_plane_values_absent(sink_.newest());
   EXPECT_EQ(gate_.counters().num_unpaired, 1);
+}
+
+TEST_F(Gate, AHalfThatComesTooLateStillJoinsItsFrame) {
+  gate_.on_ground_plane(make_plane(1), now_us_);
+  tick(13);
+  ASSERT_TRUE(std::isnan(sink_.newest().ego_validity));
+  gate_.on_ego_motion(make_ego(1), now_us_);
+  EXPECT_FALSE(gate_.idle());
+  sink_.sent.clear();
+  tick();
+  EXPECT_EQ(frames_sent("PLB_OdometryX"), std::vector<int>{1}) << "at once, as for a new frame";
+  EXPECT_EQ(sink_.newest().ego_validity, kValid);
+  EXPECT_EQ(sink_.newest().plane_validity, kValid);
+  EXPECT_EQ(gate_.counters().num_frames, 1);
+  EXPECT_EQ(gate_.counters().num_repeated, 0);
+}
+
+TEST_F(Gate, ALateHalfIsSentBeforeTheNextFrameTakesItsPlace) {
+  gate_.on_ground_plane(make_plane(1), now_us_);
+  tick(13);
+  sink_.sent.clear();
+  gate_.on_ego_motion(make_ego(1), now_us_);
+  give(2);
+  tick(2);
+  EXPECT_EQ(frames_sent(), (std::vector<int>{1, 2}));
+}
+
+TEST_F(Gate, ALateHalfFindsItsFrameInTheQueue) {
+  give(1);
+  give(2);
+  gate_.on_ground_plane(make_plane(3), now_us_);
+  now_us_ += 150'000;
+  tick();  // frame 1 is sent, frame 3 is closed behind frame 2
+  gate_.on_ego_motion(make_ego(3), now_us_);
+  gate_.on_ego_motion(make_ego(3), now_us_);
+  tick(2);
+  EXPECT_EQ(frames_sent(), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(gate_.counters().num_repeated, 1);
 }
 
 TEST_F(Gate, TheNextFrameReleasesHalfAFrame) {

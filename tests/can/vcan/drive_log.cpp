@@ -1,0 +1,133 @@
+/// drive_log LOG            writes an LCM log of GROUND_PLANE and EGO_MOTION: a made-up drive that visits
+///                          every status, both ends of every range, a lost frame and lost halves.
+/// drive_log LOG --trace T  reads any log with these channels and writes the CAN trace of its replay.
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "modules/can/can_wire.hpp"
+#include "platform/can_trace.hpp"
+#include "platform/channels.hpp"
+#include "platform/log_file.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr int kNumFrames = 300;
+constexpr std::int64_t kFrameUs = 100'000;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// A sum of sines around `mean`, so that successive frames differ in every signal.
+double wave(int frame, double mean, double amplitude, double period) {
+  return mean + amplitude * std::sin(6.283185307179586 * frame / period);
+}
+
+ego_motion_t ego_of(int frame) {
+  ego_motion_t m{};
+  m.seq = frame;
+  m.utime = frame * kFrameUs;
+  m.status = static_cast<std::int8_t>(frame / 10 % 6);
+  m.reason = static_cast<std::int8_t>(frame % 12);
+  m.reset_counter = frame / 90;
+  // Every 50th frame leaves the ranges on both sides.
+  const double wild = frame % 50 == 49 ? 1e6 : frame % 50 == 48 ? -1e6 : 0.0;
+  m.velocity_ground_m_s[0] = wave(frame, 15.0, 20.0, 37.0) + wild;
+  m.velocity_ground_m_s[1] = wave(frame, 0.0, 0.4, 23.0) - wild;
+  m.speed_std_m_s = wave(frame, 0.2, 0.15, 19.0);
+  m.rate_ground_rad_s[2] = wave(frame, 0.0, 0.6, 41.0) + wild;
+  m.yaw_rate_std_rad_s = wave(frame, 0.01, 0.005, 13.0);
+  m.accel_forward_m_s2 = frame % 7 == 0 ? kNan : wave(frame, 0.0, 3.0, 29.0);
+  m.accel_forward_std_m_s2 = wave(frame, 0.5, 0.4, 17.0);
+  const double left_rad = wave(frame, 0.0, 3.0, 211.0);
+  m.q_world_cam[0] = std::cos(-left_rad / 2);
+  m.q_world_cam[2] = std::sin(-left_rad / 2);
+  m.t_world_cam_m[0] = wave(frame, 50.0, 300.0, 97.0) + wild;
+  m.t_world_cam_m[1] = wave(frame, 0.0, 8.0, 83.0);
+  m.t_world_cam_m[2] = 1.37 * frame - wild;
+  m.distance_m = 1.5 * frame;
+  m.log_scale_std = wave(frame, 0.05, 0.04, 31.0);
+  return m;
+}
+
+ground_plane_t plane_of(int frame) {
+  ground_plane_t m{};
+  m.seq = frame;
+  m.utime = frame * kFrameUs;
+  m.status = static_cast<std::int8_t>(frame / 15 % 4);
+  m.reason = static_cast<std::int8_t>(frame % 9);
+  const double wild = frame % 40 == 39 ? 100.0 : 0.0;
+  m.pitch_rad = wave(frame, 0.01, 0.03, 27.0) - wild;
+  m.roll_rad = wave(frame, 0.0, 0.05, 33.0) + wild;
+  m.height_m = wave(frame, 1.65, 0.1, 21.0) + wild;
+  for (int i = 0; i < 3; ++i) m.cov[i][i] = wave(frame + 5 * i, 3e-6, 2e-6, 15.0);
+  m.num_cues = 3;
+  for (int i = 0; i < 3; ++i) m.cues[i].status = static_cast<std::int8_t>((frame >> i) % 2);
+  return m;
+}
+
+template <typename MessageType>
+void put(LogWriter& log, const Channel& channel, const MessageType& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  log.write(message.utime, channel.name, bytes);
+}
+
+void write_log(const char* path) {
+  LogWriter log(path);
+  for (int frame = 0; frame < kNumFrames; ++frame) {
+    if (frame == 120) continue;  // a camera frame that nobody saw
+    if (frame != 140) put(log, kGroundPlane, plane_of(frame));
+    if (frame != 160) put(log, kEgoMotion, ego_of(frame));
+  }
+  log.close();
+}
+
+template <typename MessageType>
+bool take(const LogEvent& event, const Channel& channel, MessageType* message) {
+  return event.channel == channel.name &&
+         message->decode(event.data.data(), 0, static_cast<int>(event.data.size())) >= 0;
+}
+
+bool write_trace(const char* log_path, const char* trace_path) {
+  LogReader log(log_path);
+  CanTraceWriter trace(trace_path, "can0");
+  CanOutput output{CanConfig{}};
+  ground_plane_t plane;
+  ego_motion_t ego;
+  LogEvent event;
+  while (log.next(&event)) {
+    if (take(event, kGroundPlane, &plane)) {
+      output.advance(plane.utime, trace);
+      output.on_ground_plane(plane, plane.utime);
+    } else if (take(event, kEgoMotion, &ego)) {
+      output.advance(ego.utime, trace);
+      output.on_ego_motion(ego, ego.utime);
+    }
+  }
+  output.finish(trace);
+  std::printf("%lld camera frames\n", static_cast<long long>(output.counters().num_frames));
+  return trace.flush();
+}
+
+}  // namespace
+}  // namespace plumb
+
+int main(int argc, char** argv) {
+  try {
+    if (argc == 2) {
+      plumb::write_log(argv[1]);
+      return 0;
+    }
+    if (argc == 4 && std::strcmp(argv[2], "--trace") == 0) {
+      return plumb::write_trace(argv[1], argv[3]) ? 0 : 1;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "drive_log: %s\n", error.what());
+    return 1;
+  }
+  std::fprintf(stderr, "usage: drive_log LOG [--trace TRACE]\n");
+  return 2;
+}
