@@ -13,10 +13,11 @@ constexpr int kMaskReach = 2;  // blocks kept free around a taken point
 constexpr double kRoadThresholdRatio = 0.15;
 
 // Sobel gradients of one row, grey per pixel, and their products.
-void products(const ImageView& image, int u0, int v, int n, float* xx, float* xy, float* yy) {
-  const std::uint8_t* a = image.row(v - 1) + u0;
-  const std::uint8_t* b = image.row(v) + u0;
-  const std::uint8_t* c = image.row(v + 1) + u0;
+void products(const ImageView& image, int u0, int v, int n, float* __restrict xx,
+              float* __restrict xy, float* __restrict yy) {
+  const std::uint8_t* __restrict a = image.row(v - 1) + u0;
+  const std::uint8_t* __restrict b = image.row(v) + u0;
+  const std::uint8_t* __restrict c = image.row(v + 1) + u0;
   for (int i = 0; i < n; ++i) {
     const int gx = (a[i + 1] - a[i - 1]) + 2 * (b[i + 1] - b[i - 1]) + (c[i + 1] - c[i - 1]);
     const int gy = (c[i - 1] - a[i - 1]) + 2 * (c[i] - a[i]) + (c[i + 1] - a[i + 1]);
@@ -28,8 +29,8 @@ void products(const ImageView& image, int u0, int v, int n, float* xx, float* xy
   }
 }
 
-// Mean over (2 kBoxHalf + 1)^2: columns first into `out`, then along the row in place of the first.
-void box_row(const float* in, int pitch, int n, float* out) {
+// Sums over 2 kBoxHalf + 1 rows; the sums along rows follow when scores are needed.
+void box_row(const float* __restrict in, int pitch, int n, float* __restrict out) {
   for (int i = 0; i < n; ++i) {
     out[i] = in[i] + in[i + pitch] + in[i + 2 * pitch] + in[i + 3 * pitch] + in[i + 4 * pitch];
   }

@@ -35,7 +35,7 @@ KltMatch klt_search(const Pyramid& from, const Eigen::Vector2f& from_px, const P
   for (int l = std::min(top_level, from.num_levels() - 1); l >= 0; --l) {
     const Eigen::Vector2f centre = at_level(from_px, l);
     const bool usable =
-        warp ? patch.cut(from.level(l), centre, A) : patch.cut(from.level(l), centre);
+        warp && l == 0 ? patch.cut(from.level(l), centre, A) : patch.cut(from.level(l), centre);
     if (!usable) {
       if (l == 0) return match;
       continue;  // too near the border for this level

@@ -14,7 +14,7 @@ struct KltMatch {
 };
 
 /// Finds the neighbourhood of `from_px` (15 x 15 pixels at each level) in `to`, starting at `guess_px` on level
-/// `top_level`. `scale` is how much larger the neighbourhood appears in `to`.
+/// `top_level`. `scale` is how much larger the neighbourhood appears in `to`; it is applied on level 0 only.
 [[nodiscard]] KltMatch klt_search(const Pyramid& from, const Eigen::Vector2f& from_px,
                                   const Pyramid& to, const Eigen::Vector2f& guess_px, float scale,
                                   int top_level);

@@ -12,7 +12,6 @@ namespace plumb::vo {
 namespace {
 
 constexpr int kNumLevels = 4;
-constexpr int kSearchLevel = 3;
 constexpr int kTracksPerActive = 3;  // the pool also holds the passive ones
 constexpr double kFoundEnough = 0.6;
 constexpr int kMinInliers = 15;
@@ -125,7 +124,7 @@ PoseFit Pipeline::locate(StageProbe& probe) {
   tracker_.begin(tracks_);
   tracker_.predict_by_pose(tracks_, window_, last_image_pose(), T_predicted);
   const auto num_before = static_cast<double>(tracks_.active().size());
-  const int num_found = tracker_.search(last_image(), image(), tracks_, kSearchLevel);
+  const int num_found = tracker_.search(last_image(), image(), tracks_, unseen_s_ > 0.0);
   if (num_found < kFoundEnough * num_before) search_wider(T_predicted);
   tracker_.drop_missing(tracks_);
   probe.mark("track");
@@ -156,7 +155,7 @@ void Pipeline::search_wider(const Se3& T_predicted) {
     const Se3 T_image_other{exp_so3(share * log_so3(T_image_now.R)), share * T_image_now.t};
     tracker_.predict_by_pose(tracks_, window_, T_image_world,
                              T_image_other.inverse() * T_image_world);
-    const int num_found = tracker_.search(last_image(), image(), tracks_, kNumLevels - 1);
+    const int num_found = tracker_.search(last_image(), image(), tracks_, true);
     if (num_found > kFoundEnough * static_cast<double>(tracks_.active().size())) break;
   }
 }

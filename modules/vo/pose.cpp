@@ -38,7 +38,7 @@ void add_point(const Track& track, const Se3& T_cam_host, const Eigen::Vector2d&
   ++fit->num_points;
   if (e2 < kInlierChi2) {
     ++fit->num_inliers;
-    normal->sum_inlier_px2 += p.residual_px.squaredNorm();
+    normal->sum_inlier_px2 += e2 * s2;
   }
   const Matrix26d J = frame_jacobian(D, p.Y, track.rho);
   const Vector6d a = J.row(0).transpose();

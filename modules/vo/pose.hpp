@@ -20,7 +20,7 @@ struct PoseFit {
   Matrix6d information = Matrix6d::Zero();  ///< of the (d, w) perturbation of T_cam_world
   int num_points = 0;
   int num_inliers = 0;
-  double rms_px = 0.0;  ///< of the inliers
+  double rms_px = 0.0;  ///< of the inliers, less what their uncertain depths explain
   [[nodiscard]] double inlier_ratio() const {
     return num_points > 0 ? static_cast<double>(num_inliers) / num_points : 0.0;
   }

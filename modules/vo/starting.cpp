@@ -9,7 +9,6 @@
 namespace plumb::vo {
 namespace {
 
-constexpr int kTopLevel = 3;
 constexpr int kMinTracks = 40;
 constexpr double kMinSurvivors = 0.4;
 constexpr double kMinParallaxPx = 2.0;  // left by the best rotation
@@ -52,7 +51,7 @@ void Pipeline::start(const VoInput& input, StageProbe& probe) {
   } else {
     tracker_.predict_by_flow(tracks_);
   }
-  const int num_found = tracker_.search(last_image(), image(), tracks_, kTopLevel);
+  const int num_found = tracker_.search(last_image(), image(), tracks_, true);
   tracker_.drop_missing(tracks_);
   out_.num_tracked = num_found;
   predicted_distance_ += T_prev_cam.t.norm();
@@ -200,7 +199,7 @@ void Pipeline::restart(const VoInput& input, StageProbe& probe) {
     begin_reference(last_seq_, T_image_world, last_image());
     tracker_.begin(tracks_);
     tracker_.predict_by_pose(tracks_, window_, T_image_world, T_predicted);
-    out_.num_tracked = tracker_.search(last_image(), image(), tracks_, kTopLevel);
+    out_.num_tracked = tracker_.search(last_image(), image(), tracks_, true);
     tracker_.drop_missing(tracks_);
     predicted_distance_ = T_prev_cam.t.norm();
     if (out_.num_tracked >= kMinTracks) {

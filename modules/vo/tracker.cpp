@@ -21,6 +21,10 @@ constexpr double kRoadBelowHorizonPx = 25.0;
 // Depth deviations, as a share of rho, up to which a prediction leans on them.
 constexpr double kUsableDepth = 0.5;
 constexpr AlignLimits kAnchorLimits{};
+// A search on level l finds what is kReachPx 2^l away.
+constexpr int kReachPx = 4;
+constexpr float kUnknownStdPx = 30.0F;
+constexpr double kMinStdPx = 1.0;
 
 Eigen::Matrix2f inverse_of(const Eigen::Matrix2d& B) { return B.inverse().cast<float>(); }
 
@@ -52,7 +56,7 @@ void Tracker::begin(TrackTable& tracks) {
 void Tracker::predict_by_flow(const TrackTable& tracks) {
   for (const int index : tracks.active()) {
     const auto i = static_cast<std::size_t>(index);
-    guesses_[i] = {(tracks[index].prev_px + flow_[i]).cast<float>(), 1.0F};
+    guesses_[i] = {(tracks[index].prev_px + flow_[i]).cast<float>(), 1.0F, kUnknownStdPx};
   }
 }
 
@@ -68,7 +72,7 @@ void Tracker::predict_by_pose(const TrackTable& tracks, const Window& window,
   for (const int index : tracks.active()) {
     const Track& track = tracks[index];
     Guess& guess = guesses_[static_cast<std::size_t>(index)];
-    guess = {track.prev_px.cast<float>(), 1.0F};
+    guess = {track.prev_px.cast<float>(), 1.0F, kUnknownStdPx};
     const auto host = static_cast<std::size_t>(track.host);
     const Eigen::Vector3d m = track.host_xy.homogeneous();
     const Eigen::Vector3d Y = T_cam_host[host].R * m + track.rho * T_cam_host[host].t;
@@ -79,11 +83,14 @@ void Tracker::predict_by_pose(const TrackTable& tracks, const Window& window,
     const Eigen::Vector2d before = camera_.project(Y_prev);
     const bool usable = track.rho_std < kUsableDepth * track.rho;
     guess.px = (usable ? now : Eigen::Vector2d(track.prev_px + now - before)).cast<float>();
+    const double flow_std = (now - before).norm() * track.rho_std / track.rho;
+    guess.std_px = static_cast<float>(kMinStdPx + surprise_px_ + flow_std);
     guess.scale = std::clamp(static_cast<float>(Y_prev.z() / Y.z()), 0.5F, 2.0F);
   }
 }
 
-int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, int top_level) {
+int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, bool wide) {
+  const int coarsest = from.num_levels() - 1;
   int num_found = 0;
   scratch_.clear();
   for (const int index : tracks.active()) {
@@ -95,7 +102,9 @@ int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, 
     Track& track = tracks[index];
     const Guess& guess = guesses_[static_cast<std::size_t>(index)];
     const Eigen::Vector2f start = track.prev_px.cast<float>();
-    const KltMatch there = klt_search(from, start, to, guess.px, guess.scale, top_level);
+    int level = wide ? coarsest : 1;
+    while (level < coarsest && static_cast<float>(kReachPx << level) < 2.0F * guess.std_px) ++level;
+    const KltMatch there = klt_search(from, start, to, guess.px, guess.scale, level);
     if (!there.ok() || there.ncc < kMinSearchNcc || !inside(there.px.cast<double>())) continue;
     const KltMatch back = klt_search(to, there.px, from, start, 1.0F / guess.scale, 0);
     if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) continue;
@@ -103,12 +112,14 @@ int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, 
     ++num_found;
     track.px = there.px.cast<double>();
     track.xy = camera_.to_normalized(track.px);
-    scratch_.push_back(static_cast<double>((there.px - guess.px).norm()));
+    if (track.rho_std < kUsableDepth * track.rho) {
+      scratch_.push_back(static_cast<double>((there.px - guess.px).norm()));
+    }
   }
   if (!scratch_.empty()) {
     const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
     std::nth_element(scratch_.begin(), middle, scratch_.end());
-    median_surprise_px_ = *middle;
+    surprise_px_ = *middle;
   }
   return num_found;
 }

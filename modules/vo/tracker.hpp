@@ -26,8 +26,9 @@ class Tracker {
                        const Se3& T_cam_world);
   void predict_by_flow(const TrackTable& tracks);
 
-  /// Searches the tracks not found yet, with a backward check. Returns how many are found in all.
-  int search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, int top_level);
+  /// Searches the tracks not found yet, with a backward check. `wide` starts on the coarsest level, otherwise the
+  /// level follows from how good the guess is. Returns how many are found in all.
+  int search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, bool wide);
   /// Retires the tracks that the search did not find.
   void drop_missing(TrackTable& tracks);
 
@@ -35,13 +36,11 @@ class Tracker {
   int anchor(const ImageView& image, TrackTable& tracks, const Window& window,
              const Se3& T_cam_world);
 
-  /// Of the last search: median distance between prediction and result.
-  [[nodiscard]] double median_surprise_px() const { return median_surprise_px_; }
-
  private:
   struct Guess {
     Eigen::Vector2f px;
-    float scale;  // apparent size now / before
+    float scale;   // apparent size now / before
+    float std_px;  // how far off the guess may be
   };
   [[nodiscard]] bool anchor_one(const ImageView& image, Track& track, const ImageView& host_image,
                                 const Se3& T_cam_host) const;
@@ -52,7 +51,8 @@ class Tracker {
   std::vector<unsigned char> found_;   // by track index
   std::vector<Eigen::Vector2d> flow_;  // by track index, of the frame before
   std::vector<double> scratch_;
-  double median_surprise_px_ = 0.0;
+  double surprise_px_ =
+      0.0;  // median distance between guess and result where depth was known, last search
 };
 
 }  // namespace plumb::vo
