@@ -1,0 +1,13 @@
+/// Words for the status and reason numbers of the messages; "?" for numbers that have none.
+#pragma once
+
+namespace plumb {
+
+[[nodiscard]] const char* vo_status_name(int status);
+[[nodiscard]] const char* vo_reason_name(int reason);
+[[nodiscard]] const char* plane_status_name(int status);
+[[nodiscard]] const char* plane_reason_name(int reason);
+[[nodiscard]] const char* cue_status_name(int status);
+[[nodiscard]] const char* ego_status_name(int status);
+
+}  // namespace plumb

@@ -1,0 +1,82 @@
+#include "tools/replay/replay.hpp"
+
+#include "modules/imaging/image_wire.hpp"
+#include "platform/bounded_decode.hpp"
+#include "platform/channels.hpp"
+
+namespace plumb {
+
+Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink)
+    : vo_(config.vo, seed, &vo_timer_),
+      ground_(config.ground, &ground_timer_,
+              [this](const ground_plane_t& plane, const ego_motion_t& ego) {
+                plane_ = &plane;
+                ego_ = &ego;
+              }),
+      can_(config.can),
+      can_sink_(can_sink),
+      sink_(std::move(sink)) {}
+
+void Replay::take(const LogEvent& event) {
+  if (event.channel == kCameraCalibration.name) take_calibration(event.data);
+  if (event.channel == kCamera.name) take_image(event.data);
+}
+
+void Replay::take_calibration(std::span<const std::uint8_t> bytes) {
+  camera_calibration_t message;
+  if (!decode_bounded(bytes, &message)) {
+    return refuse(kCameraCalibration.name, "not a camera_calibration_t");
+  }
+  const char* vo_refused = vo_.take_calibration(message);
+  const char* ground_refused = ground_.take_calibration(message);
+  const char* why = vo_refused != nullptr ? vo_refused : ground_refused;
+  if (why != nullptr) refuse(kCameraCalibration.name, why);
+}
+
+void Replay::take_image(std::span<const std::uint8_t> bytes) {
+  ImageFrame frame;
+  if (const char* why = read_image(bytes, &frame)) return refuse("an image", why);
+  FrameRecord record;
+  record.seq = frame.seq;
+  record.capture_us = frame.capture_us;
+  record.vo_timer = &vo_timer_;
+  record.ground_timer = &ground_timer_;
+  plane_ = nullptr;
+  ego_ = nullptr;
+  // Live, CAMERA reaches plumb-ground before the motion that plumb-vo makes of it.
+  const char* ground_refused = ground_.take_image(bytes);
+  record.refused = vo_.take_image(bytes);
+  if (vo_.motion() != nullptr) {
+    record.vo = vo_.motion();
+    vo_timer_.end();
+    if (const char* why = ground_.take_motion(*record.vo)) ground_refused = why;
+    ground_.expire();  // no image comes later in a log
+    ground_timer_.end();
+  }
+  if (record.refused == nullptr) record.refused = ground_refused;
+  if (plane_ != nullptr) {
+    record.plane = plane_;
+    record.ego = ego_;
+    send_can(*plane_, *ego_);
+  }
+  if (record.refused != nullptr) refuse("frame " + std::to_string(frame.seq), record.refused);
+  ++num_frames_;
+  sink_(record);
+}
+
+void Replay::send_can(const ground_plane_t& plane, const ego_motion_t& ego) {
+  if (can_sink_ == nullptr) return;
+  can_.advance(plane.utime, *can_sink_);
+  can_.on_ground_plane(plane, plane.utime);
+  can_.on_ego_motion(ego, ego.utime);
+}
+
+void Replay::finish() {
+  if (can_sink_ != nullptr) can_.finish(*can_sink_);
+}
+
+void Replay::refuse(const std::string& what, const char* why) {
+  if (num_refused_++ == 0) first_refusal_ = what + ": " + why;
+}
+
+}  // namespace plumb

@@ -1,0 +1,50 @@
+#include "tools/replay/summary.hpp"
+
+#include "tools/replay/names.hpp"
+#include "tools/support/text.hpp"
+
+namespace plumb {
+namespace {
+
+std::string line(const char* what, const std::map<int, int>& counts, const char* (*name_of)(int)) {
+  std::string text = format("  %-7s", what);
+  bool first = true;
+  for (const auto& [status, count] : counts) {
+    text += format("%s%d %s", first ? "" : ", ", count, name_of(status));
+    first = false;
+  }
+  return text + "\n";
+}
+
+std::string stage_row(const char* name, const StageStats& stage) {
+  return format("  %-24s%8lld%10.2f%10.2f%10.2f\n", name, static_cast<long long>(stage.num_samples),
+                1e-3 * stage.median_us, 1e-3 * stage.p99_us, 1e-3 * stage.max_us);
+}
+
+}  // namespace
+
+void StatusCount::add(const FrameRecord& record) {
+  if (record.refused != nullptr) ++num_refused_;
+  if (record.vo != nullptr) ++vo_[record.vo->status];
+  if (record.plane != nullptr) ++plane_[record.plane->status];
+  if (record.ego != nullptr) ++ego_[record.ego->status];
+}
+
+std::string StatusCount::text() const {
+  std::string text = "frames by status\n" + line("vo", vo_, vo_status_name) +
+                     line("plane", plane_, plane_status_name) + line("ego", ego_, ego_status_name);
+  if (num_refused_ > 0) text += format("  refused %d\n", num_refused_);
+  return text;
+}
+
+std::string stage_table(const std::string& program, const StageTimer& timer) {
+  std::string text = format("%-26s%8s%10s%10s%10s\n", (program + " stages [ms]").c_str(), "frames",
+                            "median", "p99", "max");
+  for (std::size_t i = 0; i < timer.num_stages(); ++i) {
+    const StageStats stage = timer.stats(i);
+    text += stage_row(stage.name, stage);
+  }
+  return text;
+}
+
+}  // namespace plumb
