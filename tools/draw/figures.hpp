@@ -1,0 +1,16 @@
+/// Rows of plumb-replay's CSV as what is drawn onto a frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "tools/draw/overlay.hpp"
+
+namespace plumb {
+
+/// Figures per sequence number. Throws InputError with file, line and column.
+[[nodiscard]] std::map<std::int64_t, FrameFigures> read_figures(const std::filesystem::path& csv);
+
+}  // namespace plumb

@@ -1,0 +1,104 @@
+#include "tools/draw/overlay.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace plumb {
+namespace {
+
+const cv::Scalar kRoadColour(80, 220, 120);
+const cv::Scalar kHorizonColour(60, 160, 255);
+const cv::Scalar kPathColour(255, 200, 80);
+const cv::Scalar kTextColour(255, 255, 255);
+constexpr double kNearest_m = 4.0;
+constexpr double kFarthest_m = 40.0;
+constexpr double kHalfWidth_m = 3.6;
+
+cv::Point2d to_point(const Eigen::Vector2d& px) { return {px.x(), px.y()}; }
+
+/// Point on the plane `right_m` to the right of and `ahead_m` ahead of the camera.
+Eigen::Vector3d on_road(const RoadPlane& plane, double right_m, double ahead_m) {
+  const Eigen::Vector3d& n = plane.normal_cam;
+  const double down_m = (plane.height_m - n.x() * right_m - n.z() * ahead_m) / n.y();
+  return {right_m, down_m, ahead_m};
+}
+
+void draw_road_line(cv::Mat* picture, const CameraModel& camera, const Eigen::Vector3d& from,
+                    const Eigen::Vector3d& to) {
+  constexpr int kPieces = 24;  // a straight line is bent by the residual radial term
+  cv::Point2d last = to_point(camera.project(from));
+  for (int i = 1; i <= kPieces; ++i) {
+    const double share = static_cast<double>(i) / kPieces;
+    const cv::Point2d next = to_point(camera.project(from + share * (to - from)));
+    cv::line(*picture, last, next, kRoadColour, 1, cv::LINE_AA);
+    last = next;
+  }
+}
+
+void draw_road(cv::Mat* picture, const CameraModel& camera, const RoadPlane& plane) {
+  for (double right = -kHalfWidth_m; right <= kHalfWidth_m + 0.1; right += 1.8) {
+    draw_road_line(picture, camera, on_road(plane, right, kNearest_m),
+                   on_road(plane, right, kFarthest_m));
+  }
+  for (const double ahead : {5.0, 10.0, 15.0, 20.0, 30.0, 40.0}) {
+    draw_road_line(picture, camera, on_road(plane, -kHalfWidth_m, ahead),
+                   on_road(plane, kHalfWidth_m, ahead));
+    const cv::Point2d label = to_point(camera.project(on_road(plane, kHalfWidth_m, ahead)));
+    cv::putText(*picture, std::to_string(static_cast<int>(ahead)) + " m", label + cv::Point2d(4, 4),
+                cv::FONT_HERSHEY_SIMPLEX, 0.4, kRoadColour, 1, cv::LINE_AA);
+  }
+  const double row = horizon_row_px(camera, plane);
+  const double slope = -plane.normal_cam.x() / plane.normal_cam.y();
+  const auto width = static_cast<double>(picture->cols);
+  cv::line(*picture, cv::Point2d(0.0, row - slope * camera.cx_px),
+           cv::Point2d(width, row + slope * (width - camera.cx_px)), kHorizonColour, 1,
+           cv::LINE_AA);
+}
+
+/// Path seen from above in the upper right corner, forward is up.
+void draw_path(cv::Mat* picture, const std::vector<Eigen::Vector2d>& path_m) {
+  if (path_m.size() < 2) return;
+  constexpr int kSize = 150, kMargin = 10;
+  const cv::Rect box(picture->cols - kSize - kMargin, kMargin, kSize, kSize);
+  if (box.x < 0 || box.br().y > picture->rows) return;
+  (*picture)(box) *= 0.45;
+  Eigen::Vector2d low = path_m.front(), high = path_m.front();
+  for (const Eigen::Vector2d& p : path_m) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double span_m = std::max({high.x() - low.x(), high.y() - low.y(), 1.0});
+  const double scale = (kSize - 20) / span_m;
+  const Eigen::Vector2d middle = 0.5 * (low + high);
+  const auto place = [&](const Eigen::Vector2d& p) {
+    return cv::Point2d(box.x + kSize / 2 + scale * (p.x() - middle.x()),
+                       box.y + kSize / 2 - scale * (p.y() - middle.y()));
+  };
+  for (std::size_t i = 1; i < path_m.size(); ++i) {
+    cv::line(*picture, place(path_m[i - 1]), place(path_m[i]), kPathColour, 1, cv::LINE_AA);
+  }
+  cv::circle(*picture, place(path_m.back()), 3, kPathColour, cv::FILLED, cv::LINE_AA);
+}
+
+}  // namespace
+
+double horizon_row_px(const CameraModel& camera, const RoadPlane& plane) {
+  return camera.cy_px - camera.fy_px * plane.normal_cam.z() / plane.normal_cam.y();
+}
+
+cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera, const FrameFigures& figures) {
+  cv::Mat picture;
+  cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+  if (figures.plane) draw_road(&picture, camera, *figures.plane);
+  draw_path(&picture, figures.path_m);
+  int row = 22;
+  for (const std::string& line : figures.lines) {
+    cv::putText(picture, line, {12, row}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {0, 0, 0}, 3, cv::LINE_AA);
+    cv::putText(picture, line, {12, row}, cv::FONT_HERSHEY_SIMPLEX, 0.5, kTextColour, 1,
+                cv::LINE_AA);
+    row += 20;
+  }
+  return picture;
+}
+
+}  // namespace plumb

@@ -1,0 +1,34 @@
+/// What the module knows, drawn onto the frame it knows it from: road grid, horizon, figures, path.
+///
+/// Frames  cam: x right, y down, z forward; plane normal points DOWN, n . X = h.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modules/geometry/camera_model.hpp"
+
+namespace plumb {
+
+struct RoadPlane {
+  Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< unit, down
+  double height_m = 0.0;
+};
+
+struct FrameFigures {
+  std::optional<RoadPlane> plane;       ///< absent while it does not hold
+  std::vector<Eigen::Vector2d> path_m;  ///< (x right, z forward) of the world frame, oldest first
+  std::vector<std::string> lines;       ///< text, top to bottom
+};
+
+/// Colour picture of `grey` with everything in `figures` drawn on it.
+[[nodiscard]] cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera,
+                                   const FrameFigures& figures);
+
+/// Pixel where the plane's vanishing line crosses the column through the principal point.
+[[nodiscard]] double horizon_row_px(const CameraModel& camera, const RoadPlane& plane);
+
+}  // namespace plumb
