@@ -7,10 +7,10 @@ namespace {
 
 constexpr std::int32_t kMaxStages = 16;  // process_health_t.num_stages
 
-// Both lists begin: fingerprint, utime, ... count.
-bool count_holds(std::span<const std::uint8_t> bytes, int bytes_before_count, std::int32_t most) {
+// Both lists begin: fingerprint, utime, seq, count.
+bool count_holds(std::span<const std::uint8_t> bytes, std::int32_t most) {
   WireCursor cursor(bytes);
-  cursor.skip(bytes_before_count);
+  cursor.skip(24);
   const std::int32_t count = cursor.i32();
   return cursor.ok() && count >= 0 && count <= most;
 }
@@ -18,11 +18,11 @@ bool count_holds(std::span<const std::uint8_t> bytes, int bytes_before_count, st
 }  // namespace
 
 bool lengths_hold(std::span<const std::uint8_t> bytes, const detections_t* /*type*/) {
-  return count_holds(bytes, 24, detections_t::MAX_DETECTIONS);
+  return count_holds(bytes, detections_t::MAX_DETECTIONS);
 }
 
 bool lengths_hold(std::span<const std::uint8_t> bytes, const objects_t* /*type*/) {
-  return count_holds(bytes, 16, objects_t::MAX_OBJECTS);
+  return count_holds(bytes, objects_t::MAX_OBJECTS);
 }
 
 bool lengths_hold(std::span<const std::uint8_t> bytes, const process_health_t* /*type*/) {

@@ -1,0 +1,116 @@
+// The process shell, seen from outside: the real plumb-ground and plumb-vo.
+#include "platform/process.hpp"
+
+#include <gtest/gtest.h>
+
+#include "platform/clock.hpp"
+#include "tests/platform/temp_file.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/support/private_network.hpp"
+
+namespace plumb {
+namespace {
+
+using test::ChildProcess;
+
+class ProcessTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Programs, ProcessTest, testing::Values("plumb-vo", "plumb-ground"),
+                         [](const auto& program) { return std::string(program.param).substr(6); });
+
+void expect_refused(std::vector<std::string> arguments, const std::string& sentence) {
+  const std::string program = arguments[0];
+  ChildProcess child(std::move(arguments));
+  EXPECT_EQ(2, child.wait());
+  const std::string line = program + ": " + sentence;
+  EXPECT_EQ(line, child.output().substr(0, line.size()));
+  EXPECT_EQ(1, std::count(child.output().begin(), child.output().end(), '\n')) << child.output();
+}
+
+TEST_P(ProcessTest, RefusesWhatItDoesNotKnowWithOneSentenceAndCode2) {
+  const std::string program = GetParam();
+  expect_refused({program, "--colour"}, "The following argument was not expected: --colour");
+  expect_refused({program, "drive.lcm"}, "The following argument was not expected: drive.lcm");
+  expect_refused({program, "--config"}, "--config: 1 required TEXT missing");
+  expect_refused({program, "--config", "/nowhere.toml"},
+                 "cannot read /nowhere.toml: No such file or directory\n");
+  expect_refused({program, "--lcm-url", "http://there"}, "--lcm-url http://there begins with none");
+  const test::TempFile bad(".toml", "[ground]\ncamera_height_m = 145\n");
+  expect_refused({program, "--config", bad.path()},
+                 bad.path() + ":2: ground.camera_height_m = 145 is outside [0.3, 4]\n");
+  const test::TempFile unknown(".toml", "[wheel]\nradius_m = 0.3\n");
+  expect_refused({program, "--config", unknown.path()},
+                 unknown.path() + ":2: wheel.radius_m is not a known key\n");
+}
+
+TEST_P(ProcessTest, AnswersHelpVersionAndPrintConfig) {
+  ChildProcess help({GetParam(), "--help"});
+  EXPECT_EQ(0, help.wait());
+  EXPECT_NE(std::string::npos, help.output().find("--lcm-url")) << help.output();
+  ChildProcess version({GetParam(), "--version"});
+  EXPECT_EQ(0, version.wait());
+  EXPECT_EQ(0U, version.output().find(std::string(GetParam()) + " ")) << version.output();
+
+  const test::TempFile config(".toml", "ground.camera_height_m = 1.25\n");
+  ChildProcess print({GetParam(), "--config", config.path(), "--print-config"});
+  EXPECT_EQ(0, print.wait());
+  EXPECT_NE(std::string::npos, print.output().find("\ncamera_height_m = 1.25 ")) << print.output();
+}
+
+TEST_P(ProcessTest, SaysSoWhenThereIsNoNetwork) {
+  if (::unshare(CLONE_NEWNET) != 0) GTEST_SKIP() << test::kNoPrivateNetwork;
+  ChildProcess child({GetParam()});
+  EXPECT_EQ(1, child.wait());
+  EXPECT_NE(std::string::npos, child.output().find("cannot use LCM network udpm://239.255.76.67"))
+      << child.output();
+}
+
+// What one program said about itself until the end.
+struct Life {
+  std::vector<process_health_t> reports;
+  int exit_code = -1;
+};
+
+Life watch(const std::string& program, const Channel& health, int stop_signal) {
+  Life life;
+  Counters counters;
+  Bus bus("", &counters);
+  Subscriber<process_health_t> in(bus, health, Input::kPeriodic, [&](const auto& m) {
+    life.reports.push_back(m);
+    return nullptr;
+  });
+  ChildProcess child({program});
+  const std::int64_t start_us = monotonic_us();
+  while (monotonic_us() < start_us + 3'250'000) bus.handle(50);
+  child.signal(stop_signal);
+  life.exit_code = child.wait(5.0);
+  while (bus.handle(100)) {
+  }
+  EXPECT_EQ(0, counters.num_rejected);
+  return life;
+}
+
+TEST_P(ProcessTest, ReportsItsHealthTwiceASecondWithoutInputAndStopsCleanlyWhenAsked) {
+  if (!test::enter_private_network()) GTEST_SKIP() << test::kNoPrivateNetwork;
+  const std::string program = GetParam();
+  const bool is_vo = program == "plumb-vo";
+  const Life life = watch(program, is_vo ? kHealthVo : kHealthGround, is_vo ? SIGTERM : SIGINT);
+  EXPECT_EQ(0, life.exit_code);
+  ASSERT_GE(life.reports.size(), 6U);
+  ASSERT_LE(life.reports.size(), 9U);
+  for (std::size_t i = 0; i + 1 < life.reports.size(); ++i) {
+    const process_health_t& m = life.reports[i];
+    EXPECT_EQ(is_vo ? "vo" : "ground", m.process);
+    EXPECT_EQ(static_cast<int>(HealthState::kWaiting), m.state);
+    EXPECT_EQ("no CAMERA_CALIBRATION yet", m.state_reason);
+    EXPECT_GT(m.memory_rss_bytes, 0);
+    EXPECT_GT(m.receive_buffer_bytes, 100'000);
+    const double since_us =
+        i < 2 ? 500'000.0 : static_cast<double>(m.utime - life.reports[i - 1].utime);
+    EXPECT_NEAR(500'000.0, since_us, 60'000.0);
+  }
+  EXPECT_EQ(static_cast<int>(HealthState::kStopping), life.reports.back().state);
+  EXPECT_EQ(is_vo ? "SIGTERM" : "SIGINT", life.reports.back().state_reason);
+}
+
+}  // namespace
+}  // namespace plumb

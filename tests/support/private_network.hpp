@@ -1,0 +1,23 @@
+/// A network of this test's own: multicast cannot leave it, and parallel tests cannot hear each other.
+#pragma once
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace plumb::test {
+
+/// Moves this process, and children it starts later, to an empty network namespace with multicast on its loopback.
+/// False where that is not permitted. @pre no thread was started yet
+inline bool enter_private_network() {
+  if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return false;
+  return std::system(
+             "ip link set lo up multicast on 2>/dev/null && "
+             "ip route add 224.0.0.0/4 dev lo 2>/dev/null") == 0;
+}
+
+inline constexpr const char* kNoPrivateNetwork =
+    "a private network namespace is not permitted here (unshare -n)";
+
+}  // namespace plumb::test

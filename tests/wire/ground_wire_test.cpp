@@ -1,0 +1,125 @@
+#include "modules/ground/ground_wire.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "tests/wire/sample_output.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+std::string refusal(const std::function<void(ground_plane_t*, ego_motion_t*)>& change) {
+  ground_plane_t plane{};
+  ego_motion_t ego{};
+  to_wire(test::sample_ground_output(), &plane);
+  to_wire(test::sample_ground_output(), &ego);
+  change(&plane, &ego);
+  GroundOutput out;
+  const char* why = from_wire(plane, ego, &out);
+  return why == nullptr ? "" : why;
+}
+std::string refused_plane(const std::function<void(ground_plane_t*)>& change) {
+  return refusal([&](ground_plane_t* plane, ego_motion_t*) { change(plane); });
+}
+std::string refused_ego(const std::function<void(ego_motion_t*)>& change) {
+  return refusal([&](ground_plane_t*, ego_motion_t* ego) { change(ego); });
+}
+
+TEST(GroundWire, RoundTripsEveryField) {
+  const GroundOutput sent = test::sample_ground_output();
+  ground_plane_t plane{};
+  ego_motion_t ego{};
+  to_wire(sent, &plane);
+  to_wire(sent, &ego);
+  GroundOutput back;
+  ASSERT_EQ(nullptr, from_wire(plane, ego, &back));
+  EXPECT_EQ(sent.seq, back.seq);
+  EXPECT_EQ(sent.capture_us, back.capture_us);
+  EXPECT_EQ(sent.plane.status, back.plane.status);
+  EXPECT_EQ(sent.plane.normal_cam, back.plane.normal_cam);
+  EXPECT_EQ(sent.plane.height_m, back.plane.height_m);
+  EXPECT_EQ(sent.plane.pitch_rad, back.plane.pitch_rad);
+  EXPECT_EQ(sent.plane.roll_rad, back.plane.roll_rad);
+  EXPECT_EQ(sent.plane.cov, back.plane.cov);
+  for (std::size_t i = 0; i < kNumCues; ++i) {
+    EXPECT_EQ(sent.plane.cues[i].status, back.plane.cues[i].status);
+    EXPECT_EQ(sent.plane.cues[i].height, back.plane.cues[i].height);
+    EXPECT_EQ(sent.plane.cues[i].n1, back.plane.cues[i].n1);
+    EXPECT_EQ(sent.plane.cues[i].n3, back.plane.cues[i].n3);
+    EXPECT_EQ(sent.plane.cues[i].height_var, back.plane.cues[i].height_var);
+    EXPECT_EQ(sent.plane.cues[i].n1_var, back.plane.cues[i].n1_var);
+    EXPECT_EQ(sent.plane.cues[i].n3_var, back.plane.cues[i].n3_var);
+    EXPECT_EQ(sent.plane.cues[i].quality, back.plane.cues[i].quality);
+  }
+  EXPECT_EQ(sent.ego.status, back.ego.status);
+  EXPECT_EQ(sent.ego.reason, back.ego.reason);
+  EXPECT_EQ(sent.ego.reset_counter, back.ego.reset_counter);
+  EXPECT_TRUE(sent.ego.T_prev_cam.R.isApprox(back.ego.T_prev_cam.R, 1e-14));
+  EXPECT_EQ(sent.ego.T_prev_cam.t, back.ego.T_prev_cam.t);
+  EXPECT_EQ(sent.ego.cov_prev_cam, back.ego.cov_prev_cam);
+  EXPECT_EQ(sent.ego.velocity_ground_m_s, back.ego.velocity_ground_m_s);
+  EXPECT_EQ(sent.ego.speed_std_m_s, back.ego.speed_std_m_s);
+  EXPECT_EQ(sent.ego.rate_ground_rad_s, back.ego.rate_ground_rad_s);
+  EXPECT_EQ(sent.ego.yaw_rate_std_rad_s, back.ego.yaw_rate_std_rad_s);
+  EXPECT_EQ(sent.ego.accel_forward_m_s2, back.ego.accel_forward_m_s2);
+  EXPECT_EQ(sent.ego.accel_forward_std_m_s2, back.ego.accel_forward_std_m_s2);
+  EXPECT_EQ(sent.ego.T_world_cam.t, back.ego.T_world_cam.t);
+  EXPECT_EQ(sent.ego.cov_world_cam, back.ego.cov_world_cam);
+  EXPECT_EQ(sent.ego.distance_m, back.ego.distance_m);
+  EXPECT_EQ(sent.ego.log_scale, back.ego.log_scale);
+  EXPECT_EQ(sent.ego.log_scale_std, back.ego.log_scale_std);
+}
+
+TEST(GroundWire, RefusesAPlaneThatIsNoneWhenItSaysItHolds) {
+  EXPECT_EQ("", refused_plane([](ground_plane_t*) {}));
+  const std::string none = "ground plane: says that the plane holds, but it is none";
+  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->normal_cam[1] = 0.9; }));
+  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->normal_cam[0] = kNaN; }));
+  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->height_m = 0.0; }));
+  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->height_m = kInf; }));
+  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->pitch_rad = kNaN; }));
+  EXPECT_EQ("", refused_plane([](ground_plane_t* m) {
+              m->status = ground_plane_t::STATUS_INVALID;
+              m->height_m = 0.0;
+            }))
+      << "an invalid plane may hold anything";
+}
+
+TEST(GroundWire, RefusesUnknownNumbersInThePlane) {
+  EXPECT_EQ("ground plane: unknown status", refused_plane([](auto* m) { m->status = 4; }));
+  EXPECT_EQ("ground plane: unknown reason", refused_plane([](auto* m) { m->reason = -1; }));
+  EXPECT_EQ("ground plane: not 3 cues", refused_plane([](auto* m) { m->num_cues = 4; }));
+  EXPECT_EQ("ground plane: unknown cue status",
+            refused_plane([](auto* m) { m->cues[2].status = 4; }));
+  EXPECT_EQ("ground plane: not a covariance", refused_plane([](auto* m) { m->cov[0][0] = -1.0; }));
+  EXPECT_EQ("", refused_plane([](auto* m) { m->cues[0].height = kNaN; })) << "not observed";
+}
+
+TEST(GroundWire, RefusesAMotionThatIsNone) {
+  EXPECT_EQ("ego motion: unknown status", refused_ego([](auto* m) { m->status = 6; }));
+  EXPECT_EQ("ego motion: unknown reason", refused_ego([](auto* m) { m->reason = 12; }));
+  EXPECT_EQ("ego motion: a pose is not a pose",
+            refused_ego([](auto* m) { m->q_world_cam[3] = 2; }));
+  EXPECT_EQ("ego motion: not a covariance",
+            refused_ego([](auto* m) { m->cov_world_cam[5][0] = kNaN; }));
+  const std::string number = "ego motion: a velocity, rate or scale is not a number";
+  EXPECT_EQ(number, refused_ego([](auto* m) { m->velocity_ground_m_s[0] = kNaN; }));
+  EXPECT_EQ(number, refused_ego([](auto* m) { m->speed_std_m_s = -1.0; }));
+  EXPECT_EQ(number, refused_ego([](auto* m) { m->rate_ground_rad_s[2] = kInf; }));
+  EXPECT_EQ(number, refused_ego([](auto* m) { m->log_scale = kNaN; }));
+  EXPECT_EQ("", refused_ego([](auto* m) { m->accel_forward_m_s2 = kNaN; })) << "not observable";
+}
+
+TEST(GroundWire, RefusesMessagesOfDifferentImages) {
+  const std::string apart = "ground plane and ego motion are of different images";
+  EXPECT_EQ(apart, refused_ego([](auto* m) { m->seq = 43; }));
+  EXPECT_EQ(apart, refused_plane([](auto* m) { m->utime += 1; }));
+}
+
+}  // namespace
+}  // namespace plumb

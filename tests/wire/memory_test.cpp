@@ -1,0 +1,101 @@
+// From bytes to bytes without the heap: decode, from_wire, to_wire, encode.
+#include <gtest/gtest.h>
+
+#include "modules/ground/ground_wire.hpp"
+#include "modules/ground/pending_images.hpp"
+#include "modules/imaging/image_wire.hpp"
+#include "modules/vo/vo_wire.hpp"
+#include "platform/bus.hpp"
+#include "platform/health.hpp"
+#include "tests/support/count_allocations.hpp"
+#include "tests/wire/sample_output.hpp"
+
+namespace plumb {
+namespace {
+
+// Allocations of the second run of `work`; the first may warm up.
+template <typename Work>
+std::int64_t allocations_of(Work work) {
+  work();
+  const std::int64_t before = test::g_num_allocations;
+  for (int i = 0; i < 100; ++i) work();
+  return test::g_num_allocations - before;
+}
+
+class WireMemory : public testing::Test {
+ protected:
+  Counters counters_;
+  Bus bus_{"memq://", &counters_};
+};
+
+TEST_F(WireMemory, TheCounterCounts) {
+  EXPECT_EQ(100, allocations_of([] { ::operator delete(::operator new(4)); }));
+}
+
+TEST_F(WireMemory, AVoMotionIsEncodedAndDecodedInPlace) {
+  Publisher<vo_motion_t> out(bus_, kVoMotion);
+  const VoOutput output = test::sample_vo_output();
+  static vo_motion_t message;
+  static vo_motion_t received;
+  static VoOutput back;
+  EXPECT_EQ(0, allocations_of([&] {
+              to_wire(output, &message);
+              const auto bytes = out.encode(message);
+              ASSERT_TRUE(decode_bounded(bytes, &received));
+              ASSERT_EQ(nullptr, from_wire(received, &back));
+            }));
+}
+
+TEST_F(WireMemory, GroundMessagesAreEncodedAndDecodedInPlace) {
+  Publisher<ground_plane_t> plane_out(bus_, kGroundPlane);
+  Publisher<ego_motion_t> ego_out(bus_, kEgoMotion);
+  const GroundOutput output = test::sample_ground_output();
+  ground_plane_t plane{};
+  ego_motion_t ego{};
+  GroundOutput back;
+  EXPECT_EQ(0, allocations_of([&] {
+              to_wire(output, &plane);
+              to_wire(output, &ego);
+              ASSERT_TRUE(decode_bounded(plane_out.encode(plane), &plane));
+              ASSERT_TRUE(decode_bounded(ego_out.encode(ego), &ego));
+              ASSERT_EQ(nullptr, from_wire(plane, ego, &back));
+            }));
+}
+
+TEST_F(WireMemory, AGreyImageIsEncodedReadAndKeptInPlace) {
+  constexpr int kWidth = 640;
+  constexpr int kHeight = 200;
+  const std::vector<std::uint8_t> pixels(kWidth * kHeight, 7);
+  Publisher<image_t> out(bus_, kCamera, max_image_bytes(pixels.size()));
+  image_t message{};
+  ImageDecoder decoder(kWidth, kHeight);
+  PendingImages pending(kWidth, kHeight);
+  EXPECT_EQ(0, allocations_of([&] {
+              to_wire(1, 2, {pixels.data(), kWidth, kHeight, kWidth}, &message);
+              ImageFrame frame;
+              ImageView view;
+              ASSERT_EQ(nullptr, read_image(out.encode(message), &frame));
+              ASSERT_EQ(nullptr, decoder.decode(frame, &view));
+              ASSERT_TRUE(pending.put(frame));
+              ASSERT_NE(nullptr, pending.find(2, 1));
+            }));
+}
+
+TEST_F(WireMemory, HealthIsReportedInPlace) {
+  StageTimer timer;
+  Health health("test");
+  Publisher<process_health_t> out(bus_, kHealthVo, Health::kMaxBytes);
+  std::int64_t now_us = 0;
+  EXPECT_EQ(0, allocations_of([&] {
+              timer.begin();
+              timer.mark("a stage with a name too long for the small-string buffer");
+              timer.end();
+              counters_.reject("a reason too long for the small-string buffer of std::string");
+              const auto bytes =
+                  out.encode(health.report(now_us += 500'000, counters_, bus_, timer));
+              ASSERT_FALSE(bytes.empty());
+            }));
+}
+
+}  // namespace
+}  // namespace plumb

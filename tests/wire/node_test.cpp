@@ -1,0 +1,208 @@
+// The nodes of vo and ground: calibration rules, what is refused, and how motions find their images.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "modules/ground/ground_node.hpp"
+#include "modules/vo/vo_node.hpp"
+#include "tests/wire/sample_output.hpp"
+
+namespace plumb {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+constexpr int kWidth = 320;
+constexpr int kHeight = 128;
+const CameraModel kModel{kWidth, kHeight, 250.0, 250.0, 160.0, 64.0, 0.0, 1.65};
+
+Bytes image_bytes(std::int64_t seq, int width_px = kWidth) {
+  Bytes pixels(static_cast<std::size_t>(width_px * kHeight));
+  std::mt19937 random(5);
+  for (std::uint8_t& p : pixels) p = static_cast<std::uint8_t>(random());
+  image_t message{};
+  to_wire(seq * 100'000, seq, {pixels.data(), width_px, kHeight, width_px}, &message);
+  Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+class VoNodeTest : public testing::Test {
+ protected:
+  std::string take(const Bytes& bytes) {
+    const char* why = node_->take_image(bytes);
+    return why == nullptr ? "" : why;
+  }
+  NullProbe probe_;
+  std::unique_ptr<VoNode> node_ = std::make_unique<VoNode>(VoConfig{}, 1, &probe_);
+};
+
+TEST_F(VoNodeTest, SaysNoCalibrationUntilOneArrives) {
+  EXPECT_EQ("image came before a calibration", take(image_bytes(1)));
+  ASSERT_NE(nullptr, node_->motion()) << "those downstream learn why there is nothing";
+  EXPECT_EQ(vo_motion_t::STATUS_LOST, node_->motion()->status);
+  EXPECT_EQ(vo_motion_t::REASON_NO_CALIBRATION, node_->motion()->reason);
+  EXPECT_EQ(1, node_->motion()->seq);
+  EXPECT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0)));
+  EXPECT_EQ("", take(image_bytes(2)));
+  ASSERT_NE(nullptr, node_->motion());
+  EXPECT_EQ(2, node_->motion()->seq);
+  EXPECT_EQ(200'000, node_->motion()->utime);
+}
+
+TEST_F(VoNodeTest, TakesTheFirstCalibrationAndRefusesADifferentOne) {
+  CameraModel other = kModel;
+  other.fx_px = -1.0;
+  EXPECT_STREQ("calibration: focal length is outside [1, 100000]",
+               node_->take_calibration(to_wire(other, 0)));
+  EXPECT_FALSE(node_->calibrated());
+  EXPECT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0)));
+  EXPECT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 1'000'000))) << "once a second";
+  other.fx_px = 251.0;
+  EXPECT_STREQ("calibration differs from the first one; restart to use it",
+               node_->take_calibration(to_wire(other, 0)));
+}
+
+TEST_F(VoNodeTest, RefusesWrongImagesAndGoesOn) {
+  ASSERT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0)));
+  EXPECT_EQ("", take(image_bytes(1)));
+  EXPECT_EQ("image size differs from the calibration", take(image_bytes(2, 160)));
+  EXPECT_EQ(nullptr, node_->motion());
+  EXPECT_EQ("not an image_t", take(Bytes(100)));
+  EXPECT_EQ("", take(image_bytes(3)));
+  EXPECT_EQ("image came twice", take(image_bytes(3)));
+  EXPECT_EQ(nullptr, node_->motion());
+  EXPECT_EQ("", take(image_bytes(7)));
+  EXPECT_EQ(3, node_->num_lost());
+  EXPECT_EQ("", take(image_bytes(0))) << "a source that began anew is VO's to handle";
+  EXPECT_NE(nullptr, node_->motion());
+}
+
+class GroundNodeTest : public testing::Test {
+ protected:
+  GroundNodeTest()
+      : node_(std::make_unique<GroundNode>(
+            GroundConfig{}, &probe_, [this](const ground_plane_t& plane, const ego_motion_t& ego) {
+              EXPECT_EQ(plane.seq, ego.seq);
+              results_.push_back(plane);
+            })) {}
+
+  void calibrate() { ASSERT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0))); }
+  void image(std::int64_t seq) { EXPECT_EQ(nullptr, node_->take_image(image_bytes(seq))) << seq; }
+  void motion(std::int64_t seq) {
+    vo_motion_t message;
+    to_wire(test::sample_vo_output(), &message);
+    message.seq = seq;
+    message.prev_seq = seq - 1;
+    message.utime = seq * 100'000;
+    message.num_window = 0;
+    EXPECT_EQ(nullptr, node_->take_motion(message)) << seq;
+  }
+  // Sequence numbers of the results so far, negative where the image was missing.
+  std::vector<std::int64_t> results() const {
+    std::vector<std::int64_t> out;
+    for (const ground_plane_t& plane : results_)
+      out.push_back(plane.reason == ground_plane_t::REASON_IMAGE_MISSING ? -plane.seq : plane.seq);
+    return out;
+  }
+  using Seqs = std::vector<std::int64_t>;
+
+  NullProbe probe_;
+  std::vector<ground_plane_t> results_;
+  std::unique_ptr<GroundNode> node_;
+};
+
+TEST_F(GroundNodeTest, SaysNoCalibrationUntilOneArrives) {
+  motion(1);
+  ASSERT_EQ(1U, results_.size());
+  EXPECT_EQ(ground_plane_t::STATUS_INVALID, results_[0].status);
+  EXPECT_EQ(ground_plane_t::REASON_NO_CALIBRATION, results_[0].reason);
+  EXPECT_STREQ("image came before a calibration", node_->take_image(image_bytes(2)));
+}
+
+TEST_F(GroundNodeTest, PairsMotionsThatTrailTheirImages) {
+  calibrate();
+  for (std::int64_t seq = 1; seq <= 5; ++seq) image(seq);
+  for (std::int64_t seq = 1; seq <= 5; ++seq) motion(seq);
+  EXPECT_EQ((Seqs{1, 2, 3, 4, 5}), results());
+  EXPECT_EQ(0, node_->num_unpaired());
+  EXPECT_EQ(0, node_->num_lost());
+}
+
+TEST_F(GroundNodeTest, LetsAMotionWaitForItsImage) {
+  calibrate();
+  motion(1);
+  EXPECT_TRUE(node_->waiting());
+  EXPECT_TRUE(results().empty());
+  image(1);
+  EXPECT_EQ((Seqs{1}), results());
+  EXPECT_FALSE(node_->waiting());
+  node_->expire();
+  EXPECT_EQ((Seqs{1}), results()) << "nothing waits any more";
+}
+
+TEST_F(GroundNodeTest, ProcessesAMotionWithoutItsImageWhenTheNextOneComes) {
+  calibrate();
+  image(1);
+  motion(1);
+  motion(2);  // image 2 was lost
+  EXPECT_EQ((Seqs{1}), results());
+  image(3);
+  motion(3);
+  EXPECT_EQ((Seqs{1, -2, 3}), results());
+  EXPECT_EQ(1, node_->num_unpaired());
+  EXPECT_EQ(1, node_->num_lost());
+}
+
+TEST_F(GroundNodeTest, ProcessesAMotionWithoutItsImageWhenTimeIsUp) {
+  calibrate();
+  motion(1);
+  node_->expire();
+  EXPECT_EQ((Seqs{-1}), results());
+  EXPECT_EQ(nullptr, node_->take_image(image_bytes(1))) << "too late, but no error";
+  EXPECT_EQ((Seqs{-1}), results());
+}
+
+TEST_F(GroundNodeTest, NeedsTimeAndNumberToMatch) {
+  calibrate();
+  image(1);
+  vo_motion_t message;
+  to_wire(test::sample_vo_output(), &message);
+  message.seq = 1;
+  message.utime = 999;  // of another drive
+  message.num_window = 0;
+  EXPECT_EQ(nullptr, node_->take_motion(message));
+  EXPECT_TRUE(node_->waiting());
+}
+
+TEST_F(GroundNodeTest, LetsTheOldestImageGiveWay) {
+  calibrate();
+  const auto last = static_cast<std::int64_t>(PendingImages::kSlots) + 1;
+  for (std::int64_t seq = 1; seq <= last; ++seq) image(seq);
+  motion(1);
+  EXPECT_TRUE(node_->waiting()) << "gone";
+  motion(2);
+  motion(last);
+  EXPECT_EQ((Seqs{-1, 2, last}), results());
+}
+
+TEST_F(GroundNodeTest, CountsAMotionThatNeverCame) {
+  calibrate();
+  for (std::int64_t seq = 1; seq <= 4; ++seq) image(seq);
+  motion(1);
+  motion(2);
+  motion(4);  // names 3 as the one before
+  EXPECT_EQ(1, node_->num_lost());
+}
+
+TEST_F(GroundNodeTest, RefusesAMotionThatBreaksItsContract) {
+  calibrate();
+  vo_motion_t message;
+  to_wire(test::sample_vo_output(), &message);
+  message.num_road_points = 999;
+  EXPECT_STREQ("VO motion: number of road points is out of range", node_->take_motion(message));
+  EXPECT_TRUE(results().empty());
+}
+
+}  // namespace
+}  // namespace plumb

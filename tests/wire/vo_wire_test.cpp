@@ -1,0 +1,137 @@
+#include "modules/vo/vo_wire.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "tests/wire/sample_output.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+std::string refusal(const std::function<void(vo_motion_t*)>& change) {
+  static vo_motion_t message;
+  static VoOutput out;
+  to_wire(test::sample_vo_output(), &message);
+  change(&message);
+  const char* why = from_wire(message, &out);
+  return why == nullptr ? "" : why;
+}
+
+TEST(VoWire, RoundTripsToTheSameBits) {
+  // R -> q -> R may differ in the last bit once; after that the message is a fixed point.
+  static vo_motion_t first;
+  static vo_motion_t second;
+  static VoOutput back;
+  to_wire(test::sample_vo_output(), &first);
+  ASSERT_EQ(nullptr, from_wire(first, &back));
+  EXPECT_EQ(42, back.seq);
+  EXPECT_EQ(VoStatus::kOk, back.status);
+  EXPECT_EQ(VoReason::kRestarted, back.reason);
+  ASSERT_EQ(kMaxWindowPoses, back.window.size());
+  ASSERT_EQ(kMaxRoadPoints, back.road_points.size());
+  EXPECT_TRUE(back.is_keyframe);
+  to_wire(back, &second);
+  EXPECT_EQ(
+      0, std::memcmp(first.road_points_cam, second.road_points_cam, sizeof first.road_points_cam));
+  EXPECT_EQ(0, std::memcmp(first.cov_prev_cam, second.cov_prev_cam, sizeof first.cov_prev_cam));
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(first.q_prev_cam[i], second.q_prev_cam[i], 1e-15);
+  EXPECT_EQ(0, std::memcmp(first.t_window_cam, second.t_window_cam, sizeof first.t_window_cam));
+}
+
+TEST(VoWire, KeepsRotationAndTranslationOfAPose) {
+  const VoOutput output = test::sample_vo_output();
+  static vo_motion_t message;
+  static VoOutput back;
+  to_wire(output, &message);
+  ASSERT_EQ(nullptr, from_wire(message, &back));
+  EXPECT_TRUE(back.T_prev_cam.R.isApprox(output.T_prev_cam.R, 1e-14));
+  EXPECT_EQ(back.T_prev_cam.t, output.T_prev_cam.t);
+  EXPECT_GE(message.q_prev_cam[0], 0.0) << "one sign for each rotation";
+}
+
+TEST(VoWire, ClearsRowsBeyondTheCounts) {
+  static vo_motion_t message;
+  to_wire(test::sample_vo_output(), &message);
+  to_wire(VoOutput{}, &message);
+  EXPECT_EQ(0, message.num_road_points);
+  EXPECT_EQ(0.0F, message.road_points_cam[5][2]);
+  EXPECT_EQ(0, message.window_seq[3]);
+}
+
+TEST(VoWire, AcceptsWhatALostEstimatorSends) {
+  static vo_motion_t message;
+  static VoOutput back;
+  VoOutput lost;
+  lost.reason = VoReason::kNoCalibration;
+  lost.scale_carry_std = kNaN;
+  to_wire(lost, &message);
+  EXPECT_EQ(nullptr, from_wire(message, &back));
+  EXPECT_EQ(VoStatus::kLost, back.status);
+}
+
+TEST(VoWire, RefusesCountsAndNumbersOutOfRange) {
+  EXPECT_EQ("", refusal([](vo_motion_t*) {}));
+  EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = 6; }));
+  EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = -1; }));
+  EXPECT_EQ("VO motion: unknown reason", refusal([](vo_motion_t* m) { m->reason = 12; }));
+  const std::string points = "VO motion: number of road points is out of range";
+  EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = 385; }));
+  EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = -1; }));
+  EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = 32767; }));
+  const std::string window = "VO motion: number of window poses is out of range";
+  EXPECT_EQ(window, refusal([](vo_motion_t* m) { m->num_window = 13; }));
+  EXPECT_EQ(window, refusal([](vo_motion_t* m) { m->num_window = -128; }));
+  EXPECT_EQ("VO motion: a feature count is negative",
+            refusal([](vo_motion_t* m) { m->num_inliers = -1; }));
+}
+
+TEST(VoWire, RefusesPosesThatAreNone) {
+  const std::string pose = "VO motion: the relative pose is not a pose";
+  EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->q_prev_cam[0] = kNaN; }));
+  EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->q_prev_cam[2] += 0.01; }));
+  EXPECT_EQ(pose, refusal([](vo_motion_t* m) {
+              for (double& q : m->q_prev_cam) q = 0.0;
+            }));
+  EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->t_prev_cam[1] = kInf; }));
+  EXPECT_EQ("VO motion: a window pose is not a pose",
+            refusal([](vo_motion_t* m) { m->t_window_cam[11][2] = kNaN; }));
+  EXPECT_EQ("VO motion: window poses are not newest first",
+            refusal([](vo_motion_t* m) { m->window_seq[4] = 100; }));
+}
+
+TEST(VoWire, RefusesDeviationsAndPointsThatAreNone) {
+  const std::string cov = "VO motion: the covariance is not a covariance";
+  EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][3] = kNaN; }));
+  EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][2] = -1e-9; }));
+  const std::string carry = "VO motion: scale deviation is neither a deviation nor NaN";
+  EXPECT_EQ("", refusal([](vo_motion_t* m) { m->scale_carry_std = kNaN; }));
+  EXPECT_EQ(carry, refusal([](vo_motion_t* m) { m->scale_carry_std = kInf; }));
+  EXPECT_EQ(carry, refusal([](vo_motion_t* m) { m->scale_carry_std = -0.1; }));
+  const std::string point = "VO motion: a road point is not a point before the camera";
+  const auto nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(point, refusal([=](vo_motion_t* m) { m->road_points_cam[383][0] = nan; }));
+  EXPECT_EQ(point, refusal([](vo_motion_t* m) { m->road_points_cam[0][2] = -1.0F; }));
+  EXPECT_EQ(point, refusal([=](vo_motion_t* m) { m->road_points_px[7][1] = nan; }));
+  EXPECT_EQ(point, refusal([=](vo_motion_t* m) { m->road_points_rel_std[7] = nan; }));
+  EXPECT_EQ(point, refusal([](vo_motion_t* m) { m->road_points_num_obs[7] = -1; }));
+  EXPECT_EQ("VO motion: the tracking summary is not finite",
+            refusal([=](vo_motion_t* m) { m->median_flow_px = nan; }));
+}
+
+TEST(VoWire, IgnoresRowsBeyondTheCounts) {
+  EXPECT_EQ("", refusal([](vo_motion_t* m) {
+              m->num_road_points = 3;
+              m->road_points_cam[3][0] = std::numeric_limits<float>::quiet_NaN();
+              m->num_window = 1;
+              m->q_window_cam[1][0] = kNaN;
+            }));
+}
+
+}  // namespace
+}  // namespace plumb
