@@ -16,6 +16,8 @@
 namespace plumb {
 namespace {
 
+constexpr std::size_t kCommentColumn = 32;
+
 std::string render(const toml::node& node) {
   std::ostringstream out;
   node.visit([&out](const auto& value) { out << value; });
@@ -239,8 +241,9 @@ void ConfigWriter::add(const std::string& key, const std::string& value, const s
     // Keys outside any section must come first in TOML.
     found = sections_.insert(section.empty() ? sections_.begin() : sections_.end(), {section, ""});
   }
-  found->second += "# " + meaning + "  " + range + "\n" +
-                   (dot == std::string::npos ? key : key.substr(dot + 1)) + " = " + value + "\n";
+  std::string line = (dot == std::string::npos ? key : key.substr(dot + 1)) + " = " + value;
+  line.resize(std::max(line.size() + 1, kCommentColumn), ' ');
+  found->second += line + "# " + range + " " + meaning + "\n";
 }
 
 }  // namespace plumb
