@@ -97,7 +97,7 @@ struct CanCounters {
 class CanGate {
  public:
   static constexpr std::int64_t kTickUs = 10'000;
-  static constexpr std::size_t kMaxPending = 16;
+  static constexpr std::size_t kMaxPending = 32;  ///< sent in 0.32 s
 
   explicit CanGate(const CanConfig& config);
 

@@ -212,13 +212,17 @@ TEST_F(Gate, FiftyFramesPerSecondWithJitterAreAllSent) {
 }
 
 TEST_F(Gate, AnOverflowDropsTheOldestAndIsCountedAndShown) {
-  for (int seq = 0; seq < 20; ++seq) give(seq);
+  CanConfig patient;
+  patient.stale_s = 5.0;
+  gate_ = CanGate(patient);
+  const int num_frames = static_cast<int>(CanGate::kMaxPending) + 4;
+  for (int seq = 0; seq < num_frames; ++seq) give(seq);
   EXPECT_EQ(gate_.counters().num_overflowed, 4);
-  tick(20);
+  tick(num_frames);
   const std::vector<int> sent = frames_sent();
   ASSERT_EQ(sent.size(), CanGate::kMaxPending);
   EXPECT_EQ(sent.front(), 4);
-  EXPECT_EQ(sent.back(), 19);
+  EXPECT_EQ(sent.back(), num_frames - 1);
   EXPECT_EQ(sink_.newest().num_overflowed, 4.0);
 }
 

@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <vector>
 
 namespace plumb {
@@ -234,6 +237,49 @@ TEST(SocketCanKernel, AnInterfaceThatIsNotThereIsRefusedInWords) {
     EXPECT_EQ(SocketCan::open_raw(name, &why), -1);
     EXPECT_NE(why, "") << name;
   }
+}
+
+/// Reads frames 0x123 from a real interface, CAN FD included; others may be busy on it.
+int open_reader(const std::string& interface) {
+  const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
+  const int on = 1;
+  EXPECT_EQ(::setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on), 0);
+  const can_filter filter{0x123, CAN_SFF_MASK};
+  EXPECT_EQ(::setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, &filter, sizeof filter), 0);
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(::if_nametoindex(interface.c_str()));
+  EXPECT_EQ(::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  return fd;
+}
+
+TEST(SocketCanKernel, ClassicAndFdFramesCrossARealInterface) {
+  const char* interface = std::getenv("PLUMB_CAN_INTERFACE");
+  if (interface == nullptr)
+    GTEST_SKIP() << "PLUMB_CAN_INTERFACE names no interface; vcan/run has one";
+  const int reader = open_reader(interface);
+  SocketCan can(interface);
+  can.service(0);
+  ASSERT_TRUE(can.is_up()) << can.state();
+  CanFrame f = frame(0x123);
+  can.send(0, f);
+  f.fd = true;
+  f.size = 64;
+  f.data[63] = 0x5A;
+  can.send(0, f);
+  EXPECT_EQ(can.counters().num_sent, 2);
+
+  canfd_frame got{};
+  ASSERT_EQ(::recv(reader, &got, sizeof got, 0), static_cast<ssize_t>(CAN_MTU));
+  EXPECT_EQ(got.can_id, 0x123U);
+  EXPECT_EQ(got.len, 8);
+  ASSERT_EQ(::recv(reader, &got, sizeof got, 0), static_cast<ssize_t>(CANFD_MTU));
+  EXPECT_EQ(got.len, 64);
+  EXPECT_EQ(got.data[63], 0x5A);
+  can.service(1);
+  EXPECT_TRUE(can.is_up()) << "its own frames do not come back as errors";
+  EXPECT_EQ(can.counters().num_errors, 0);
+  ::close(reader);
 }
 
 }  // namespace

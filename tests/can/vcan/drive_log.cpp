@@ -16,7 +16,8 @@
 namespace plumb {
 namespace {
 
-constexpr int kNumFrames = 300;
+constexpr int kFirstSeq = 100;  // the 8-bit frame counter wraps on the way
+constexpr int kNumFrames = 200;
 constexpr std::int64_t kFrameUs = 100'000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -27,7 +28,7 @@ double wave(int frame, double mean, double amplitude, double period) {
 
 ego_motion_t ego_of(int frame) {
   ego_motion_t m{};
-  m.seq = frame;
+  m.seq = kFirstSeq + frame;
   m.utime = frame * kFrameUs;
   m.status = static_cast<std::int8_t>(frame / 10 % 6);
   m.reason = static_cast<std::int8_t>(frame % 12);
@@ -54,7 +55,7 @@ ego_motion_t ego_of(int frame) {
 
 ground_plane_t plane_of(int frame) {
   ground_plane_t m{};
-  m.seq = frame;
+  m.seq = kFirstSeq + frame;
   m.utime = frame * kFrameUs;
   m.status = static_cast<std::int8_t>(frame / 15 % 4);
   m.reason = static_cast<std::int8_t>(frame % 9);

@@ -1,0 +1,45 @@
+/// The way of a message onto the bus takes no memory. A program of its own: it replaces malloc.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "modules/can/can_wire.hpp"
+#include "tests/support/count_malloc.hpp"
+
+namespace plumb {
+namespace {
+
+class CountingSink final : public CanSink {
+ public:
+  std::int64_t num_frames = 0;
+  void send(std::int64_t /*time_us*/, const CanFrame& /*frame*/) override { ++num_frames; }
+};
+
+TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
+  if (!test::kCountsMallocs) GTEST_SKIP() << "the sanitizer owns malloc";
+  CanOutput output{CanConfig{}};
+  CountingSink sink;
+  ground_plane_t plane{};
+  ego_motion_t ego{};
+  plane.height_m = 1.65;
+  ego.q_world_cam[0] = 1.0;
+  const std::int64_t before = test::g_num_mallocs;
+  for (int i = 0; i < 10'000; ++i) {
+    plane.seq = ego.seq = i % 50 == 0 ? i + 7 : i;
+    plane.status = static_cast<std::int8_t>(i / 10 % 5);  // 4 is rejected
+    ego.status = static_cast<std::int8_t>(i / 10 % 7);    // 6 is rejected
+    output.advance(i * 20'000, sink);
+    output.on_ground_plane(plane, i * 20'000);
+    output.on_ego_motion(ego, i * 20'000);
+  }
+  output.finish(sink);
+  EXPECT_EQ(test::g_num_mallocs, before);
+  EXPECT_GT(output.num_rejected(), 0);
+  EXPECT_GT(sink.num_frames, 100'000);
+
+  const std::string text(100, static_cast<char>(sink.num_frames));  // the counter works
+  EXPECT_GT(test::g_num_mallocs, before);
+}
+
+}  // namespace
+}  // namespace plumb
