@@ -267,6 +267,9 @@ void Pipeline::finish(const VoInput& input) {
       if (out_.status != VoStatus::kInitializing && out_.status != VoStatus::kLost) {
         out_.T_prev_cam = T_last_world_ * T_cam_world.inverse();
       }
+      // What was held is exact, not a difference of equal numbers.
+      if (out_.status == VoStatus::kStandstill) out_.T_prev_cam = Se3{};
+      if (out_.status == VoStatus::kRotationOnly) out_.T_prev_cam.t.setZero();
     }
     for (int i = 0; i < window_.num_history(); ++i) {
       const Window::Past& past = window_.history()[static_cast<std::size_t>(i)];

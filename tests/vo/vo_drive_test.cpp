@@ -1,0 +1,301 @@
+/// The whole odometry on rendered drives whose truth is exact.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/vo/drive_fixture.hpp"
+
+namespace plumb {
+namespace {
+
+using test::Drive;
+using test::drive;
+using test::mean_step;
+using test::RenderedImage;
+
+double rotation_error(const Se3& a, const Se3& b) { return log_so3(a.R.transpose() * b.R).norm(); }
+
+TEST(Drive, AheadAndThroughABendItMeasuresEveryMotion) {
+  std::vector<Se3> poses = drive(15, 0.8);
+  const Se3 turn{exp_so3({0.0, 0.015, 0.0}), {0.0, 0.0, 0.8}};
+  for (int i = 0; i < 15; ++i) poses.push_back(poses.back() * turn);
+  Drive d;
+  for (const Se3& T_world_cam : poses) d.see(T_world_cam);
+  EXPECT_EQ(d.said()[0].status, VoStatus::kInitializing);
+  EXPECT_EQ(d.said()[0].reason, VoReason::kFirstFrame);
+  EXPECT_EQ(d.said()[0].prev_seq, -1);
+  const double unit = mean_step(d, 4, poses.size()) / 0.8;
+  for (std::size_t i = 4; i < poses.size(); ++i) {
+    ASSERT_EQ(d.said()[i].status, VoStatus::kOk) << i;
+    const Se3 truth = poses[i - 1].inverse() * poses[i];
+    EXPECT_LT(rotation_error(d.said()[i].T_prev_cam, truth), 1.5e-3) << i;
+    EXPECT_LT((d.said()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
+    EXPECT_EQ(d.said()[i].prev_seq, static_cast<std::int64_t>(i) - 1);
+    EXPECT_EQ(d.said()[i].scale_epoch, 0);
+  }
+}
+
+TEST(Drive, TheWindowLinksBackToTheFirstFrameWhenItStarts) {
+  const std::vector<Se3> poses = drive(12, 0.3);
+  Drive d;
+  std::size_t i = 0;
+  while (i < poses.size() && d.see(poses[i]).status != VoStatus::kOk) ++i;
+  ASSERT_LT(i, poses.size());
+  ASSERT_EQ(d.last().window.size(), i + 1);
+  EXPECT_EQ(d.last().window[0].seq, static_cast<std::int64_t>(i));
+  EXPECT_EQ(d.last().window[i].seq, 0);
+  const double unit = d.last().window[i].T_window_cam.t.norm() / (0.3 * static_cast<double>(i));
+  for (std::size_t k = 0; k <= i; ++k) {
+    const WindowPose& w = d.last().window[k];
+    const Se3 truth = poses[static_cast<std::size_t>(w.seq)].inverse() * poses[i];
+    EXPECT_LT((w.T_window_cam.t / unit - truth.t).norm(), 0.05) << w.seq;
+  }
+}
+
+TEST(Drive, RoadPointsLieOnTheRoad) {
+  Drive d;
+  for (const Se3& T : drive(20, 0.8)) d.see(T);
+  const double unit = mean_step(d, 10, 20) / 0.8;
+  int num_near = 0;
+  int num_on_road = 0;
+  for (const RoadPoint& p : d.last().road_points) {
+    const Eigen::Vector3d p_m = p.p_cam.cast<double>() / unit;
+    EXPECT_GT(p_m.y(), 0.0);
+    EXPECT_GE(p.num_obs, 3);
+    if (p_m.z() > 25.0 || std::abs(p_m.x()) > 6.0) continue;
+    ++num_near;
+    if (std::abs(p_m.y() - 1.65) < 0.15) ++num_on_road;
+  }
+  EXPECT_GT(num_near, 10);
+  EXPECT_GE(num_on_road, 0.85 * num_near);
+}
+
+TEST(Standstill, FiftyNoisyFramesMeasureZeroAndLeaveTheScaleAlone) {
+  const std::vector<Se3> before = drive(16, 0.8);
+  Drive d;
+  for (const Se3& T : before) d.see(T, 2.0);
+  const double unit = mean_step(d, 10, 16) / 0.8;
+  for (int i = 0; i < 50; ++i) {
+    d.see(before.back(), 2.0);
+    ASSERT_EQ(d.last().status, VoStatus::kStandstill) << i;
+    EXPECT_EQ(d.last().T_prev_cam.t.norm(), 0.0);
+    EXPECT_EQ(d.last().num_new, 0);
+  }
+  Se3 T = before.back();
+  for (int i = 0; i < 12; ++i) {
+    T.t.z() += 0.8;
+    d.see(T, 2.0);
+    ASSERT_EQ(d.last().status, VoStatus::kOk) << i;
+    EXPECT_EQ(d.last().scale_epoch, 0);
+    EXPECT_NEAR(d.last().T_prev_cam.t.norm() / (0.8 * unit), 1.0, 0.03) << i;
+  }
+}
+
+TEST(Standstill, BeforeTheFirstMotionIsMeasuredToo) {
+  Drive d;
+  for (int i = 0; i < 10; ++i) {
+    d.see(Se3{}, 2.0);
+    if (i == 0) continue;
+    EXPECT_EQ(d.last().status, VoStatus::kStandstill) << i;
+  }
+  for (const Se3& T : drive(12, 0.6)) d.see(T, 2.0);
+  EXPECT_EQ(d.last().status, VoStatus::kOk);
+}
+
+TEST(Standstill, CreepingAddsUpInsteadOfBeingLost) {
+  const std::vector<Se3> before = drive(16, 0.8);
+  Drive d;
+  for (const Se3& T : before) d.see(T);
+  const double unit = mean_step(d, 10, 16) / 0.8;
+  Se3 T = before.back();
+  double z = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    T.t.z() += 0.01;
+    d.see(T);
+    z += d.last().T_prev_cam.t.z() / unit;
+  }
+  EXPECT_NEAR(z, 0.6, 0.06);
+}
+
+TEST(Rotation, TurningOnTheSpotKeepsPlaceLandmarksAndScale) {
+  const std::vector<Se3> before = drive(16, 0.8);
+  Drive d;
+  for (const Se3& T : before) d.see(T);
+  const double unit = mean_step(d, 10, 16) / 0.8;
+  Se3 T = before.back();
+  for (int i = 0; i < 12; ++i) {
+    T.R = T.R * exp_so3({0.0, 0.004, 0.0});
+    d.see(T);
+    ASSERT_EQ(d.last().status, VoStatus::kRotationOnly) << i;
+    EXPECT_EQ(d.last().T_prev_cam.t.norm(), 0.0) << i;
+    EXPECT_NEAR(log_so3(d.last().T_prev_cam.R).y(), 0.004, 4e-4) << i;
+  }
+  const Eigen::Vector3d ahead = T.R * Eigen::Vector3d(0.0, 0.0, 0.8);
+  for (int i = 0; i < 8; ++i) {
+    T.t += ahead;
+    d.see(T);
+    ASSERT_EQ(d.last().status, VoStatus::kOk) << i;
+    EXPECT_EQ(d.last().scale_epoch, 0);
+  }
+  EXPECT_NEAR(mean_step(d, d.said().size() - 6, d.said().size()) / (0.8 * unit), 1.0, 0.04);
+}
+
+TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
+  const std::vector<Se3> poses = drive(34, 0.6);
+  Drive d;
+  const RenderedImage black{std::vector<std::uint8_t>(620 * 188, 1), 620, 188};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i >= 18 && i < 24) {
+      d.show(black);
+      EXPECT_EQ(d.last().status, VoStatus::kCoasting);
+      EXPECT_EQ(d.last().reason, VoReason::kImageDark);
+      EXPECT_GT(d.last().T_prev_cam.t.z(), 0.0);
+      EXPECT_GT(d.last().cov_prev_cam(2, 2), d.said()[17].cov(2, 2));
+    } else {
+      d.see(poses[i]);
+    }
+    if (i >= 24) {
+      EXPECT_EQ(d.last().status, VoStatus::kOk) << i;
+      EXPECT_EQ(d.last().scale_epoch, 0) << i;
+    }
+  }
+  const double before = mean_step(d, 10, 18);
+  EXPECT_NEAR(mean_step(d, 26, 34) / before, 1.0, 0.04);
+  // The first good frame takes back what the prediction got wrong.
+  double whole = 0.0;
+  for (std::size_t i = 18; i <= 24; ++i) whole += d.said()[i].T_prev_cam.t.z();
+  EXPECT_NEAR(whole / (7.0 * before), 1.0, 0.04);
+}
+
+TEST(Coasting, EndsAsLostAfterItsLimit) {
+  Drive d;
+  for (const Se3& T : drive(12, 0.6)) d.see(T);
+  const RenderedImage flat{std::vector<std::uint8_t>(620 * 188, 200), 620, 188};
+  for (int i = 0; i < 30; ++i) {
+    d.show(flat);
+    const double unseen_s = 0.1 * (i + 1);
+    if (std::abs(unseen_s - Drive::config().coast_limit_s) < 0.01) continue;
+    const bool within = unseen_s < Drive::config().coast_limit_s;
+    EXPECT_EQ(d.last().status, within ? VoStatus::kCoasting : VoStatus::kLost) << i;
+    EXPECT_EQ(d.last().reason, VoReason::kImageFlat);
+  }
+}
+
+TEST(Coasting, AFrozenImageIsNotAStandstill) {
+  const std::vector<Se3> poses = drive(14, 0.6);
+  Drive d;
+  for (const Se3& T : poses) d.see(T);
+  const RenderedImage frozen = d.scene().render(poses.back(), 1.0, 7);
+  d.show(frozen);
+  for (int i = 0; i < 4; ++i) {
+    d.show(frozen);
+    EXPECT_EQ(d.last().status, VoStatus::kCoasting);
+    EXPECT_EQ(d.last().reason, VoReason::kImageFrozen);
+  }
+}
+
+TEST(Restart, AnotherPlaceGetsANewEpochWithTheSpeedBefore) {
+  Drive d;
+  for (const Se3& T : drive(16, 0.6)) d.see(T);
+  const double before = mean_step(d, 10, 16);
+  // Far down the street nothing of before is in sight.
+  Se3 T{Eigen::Matrix3d::Identity(), {0.3, 0.0, 90.0}};
+  int restarted_after = -1;
+  for (int i = 0; i < 12; ++i) {
+    T.t.z() += 0.6;
+    d.see(T);
+    if (d.last().reason == VoReason::kRestarted) restarted_after = i;
+  }
+  ASSERT_GE(restarted_after, 0);
+  EXPECT_LE(restarted_after, 3);
+  EXPECT_EQ(d.last().scale_epoch, 1);
+  EXPECT_EQ(d.last().status, VoStatus::kOk);
+  EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
+}
+
+TEST(Input, MissingFramesAreSaidAndBridged) {
+  const std::vector<Se3> poses = drive(24, 0.5);
+  Drive d;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i == 14 || i == 15) {
+      d.skip(1);
+      continue;
+    }
+    d.see(poses[i]);
+    if (i == 16) {
+      EXPECT_EQ(d.last().reason, VoReason::kFramesMissing);
+      EXPECT_EQ(d.last().prev_seq, 13);
+      EXPECT_NEAR(d.last().T_prev_cam.t.norm() / (3.0 * d.said()[13].T_prev_cam.t.norm()), 1.0,
+                  0.04);
+    } else if (i > 5) {
+      EXPECT_EQ(d.last().reason, VoReason::kNone) << i;
+    }
+    if (i <= 5) continue;
+    EXPECT_EQ(d.last().status, VoStatus::kOk) << i;
+  }
+}
+
+TEST(Input, TimeRunningBackwardsIsIgnored) {
+  const std::vector<Se3> poses = drive(16, 0.6);
+  Drive with;
+  Drive without;
+  const RenderedImage late = with.scene().render(poses[3], 1.0, 5);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    with.see(poses[i]);
+    without.see(poses[i]);
+    if (i == 10) {
+      const VoOutput& out = with.show(VoInput{1'000'000 + 100'000 * 10, 10, late.view()});
+      EXPECT_EQ(out.status, VoStatus::kLost);
+      EXPECT_EQ(out.reason, VoReason::kTimeBackwards);
+    }
+  }
+  EXPECT_EQ(with.last().T_prev_cam.t, without.last().T_prev_cam.t);
+}
+
+TEST(Input, AnImageOfAnotherSizeIsRefused) {
+  Drive d;
+  for (const Se3& T : drive(6, 0.6)) d.see(T);
+  const RenderedImage small{std::vector<std::uint8_t>(320 * 188, 90), 320, 188};
+  d.show(small);
+  EXPECT_EQ(d.last().status, VoStatus::kLost);
+  EXPECT_EQ(d.last().reason, VoReason::kNoCalibration);
+  EXPECT_EQ(d.last().prev_seq, -1);
+}
+
+TEST(Determinism, TwoInstancesSayTheSameBits) {
+  const std::vector<Se3> poses = drive(25, 0.9, 0.01);
+  Drive a;
+  Drive b;
+  for (const Se3& T : poses) {
+    const VoOutput& x = a.see(T);
+    const VoOutput& y = b.see(T);
+    ASSERT_EQ(x.T_prev_cam.t, y.T_prev_cam.t);
+    ASSERT_EQ(x.T_prev_cam.R, y.T_prev_cam.R);
+    ASSERT_EQ(x.cov_prev_cam, y.cov_prev_cam);
+    ASSERT_EQ(x.num_tracked, y.num_tracked);
+    ASSERT_EQ(x.road_points.size(), y.road_points.size());
+    for (std::size_t i = 0; i < x.road_points.size(); ++i) {
+      ASSERT_EQ(x.road_points[i].p_cam, y.road_points[i].p_cam);
+    }
+    for (std::size_t i = 0; i < x.window.size(); ++i) {
+      ASSERT_EQ(x.window[i].T_window_cam.t, y.window[i].T_window_cam.t);
+    }
+  }
+}
+
+TEST(Distortion, AResidualRadialTermIsTakenIntoAccount) {
+  CameraModel camera = test::scene_camera();
+  camera.residual_k1 = 0.02;
+  Drive d(camera);
+  std::vector<Se3> poses = drive(20, 0.8, 0.012);
+  for (const Se3& T : poses) d.see(T);
+  const double unit = mean_step(d, 4, poses.size()) / 0.8;
+  for (std::size_t i = 4; i < poses.size(); ++i) {
+    const Se3 truth = poses[i - 1].inverse() * poses[i];
+    EXPECT_LT(rotation_error(d.said()[i].T_prev_cam, truth), 1.5e-3) << i;
+    EXPECT_LT((d.said()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
+  }
+}
+
+}  // namespace
+}  // namespace plumb
