@@ -1,0 +1,219 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "modules/ground/ground.hpp"
+#include "tests/ground/road_scene.hpp"
+
+namespace plumb {
+namespace {
+
+/// Images and VO of one rendered drive, rendered once for all tests of this program.
+struct Footage {
+  explicit Footage(int num_frames) {
+    drive.pitch_amplitude_rad = 0.006;
+    drive.turn_left_rad = 0.01;
+    poses = drive.poses(num_frames);
+    for (int k = 0; k < num_frames; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      images.push_back(test::render(camera, poses[i], {.noise_grey = 1.0},
+                                    100U + static_cast<std::uint32_t>(k)));
+    }
+  }
+  test::Drive drive;
+  CameraModel camera = test::scene_camera();
+  std::vector<Se3> poses;
+  std::vector<test::GreyImage> images;
+};
+
+const Footage& footage() {
+  static const Footage shared(36);
+  return shared;
+}
+
+struct Rehearsal {
+  const GroundOutput& step(int k) {
+    VoOutput vo;
+    test::script_vo(footage().poses, k, script, &vo);
+    vo.scale_epoch = epoch;
+    vo.scale_carry_std = carry_std;
+    return step(vo, k);
+  }
+  const GroundOutput& step(const VoOutput& vo, int k) {
+    GroundInput input;
+    input.vo = &vo;
+    if (with_images) input.image = footage().images[static_cast<std::size_t>(k)].view();
+    return estimator.update(input, probe);
+  }
+  [[nodiscard]] double scale_error(const GroundOutput& out) const {
+    return out.ego.log_scale - std::log(script.metres_per_vo);
+  }
+
+  GroundEstimator estimator{GroundConfig{}, footage().camera};
+  NullProbe probe;
+  test::VoScript script;
+  int epoch = 0;
+  double carry_std = 0.0;
+  bool with_images = true;
+};
+
+TEST(GroundEstimator, MeasuresPlaneScaleAndMotionOfARenderedDrive) {
+  Rehearsal run;
+  for (int k = 0; k < 36; ++k) {
+    const GroundOutput& out = run.step(k);
+    if (k < 2) {
+      EXPECT_EQ(out.plane.status, GroundStatus::kInitializing);
+      continue;
+    }
+    const test::TruePlane truth = test::plane_in(footage().poses[static_cast<std::size_t>(k)]);
+    ASSERT_EQ(out.plane.status, GroundStatus::kOk) << "frame " << k;
+    EXPECT_EQ(out.plane.reason, GroundReason::kNone);
+    EXPECT_NEAR(out.plane.height_m, truth.height_m, 0.03 * truth.height_m) << "frame " << k;
+    EXPECT_NEAR(run.scale_error(out), 0.0, k < 12 ? 0.04 : 0.015) << "frame " << k;
+    EXPECT_NEAR(out.plane.pitch_rad, std::asin(truth.normal_cam.z()), 0.006) << "frame " << k;
+    EXPECT_NEAR(out.plane.roll_rad, std::atan2(truth.normal_cam.x(), truth.normal_cam.y()), 0.012);
+    EXPECT_EQ(out.ego.status, EgoStatus::kOk);
+  }
+}
+
+TEST(GroundEstimator, IntegratedPathEndsWhereTheDriveEnds) {
+  Rehearsal run;
+  Se3 pose;
+  for (int k = 0; k < 36; ++k) pose = run.step(k).ego.T_world_cam;
+  const Se3 truth = footage().poses[0].inverse() * footage().poses[35];
+  EXPECT_LT((pose.t - truth.t).norm(), 0.015 * truth.t.norm());
+}
+
+TEST(GroundEstimator, WorksOnPointsWhenImagesAreMissing) {
+  Rehearsal run;
+  run.with_images = false;
+  for (int k = 0; k < 30; ++k) {
+    const GroundOutput& out = run.step(k);
+    EXPECT_EQ(out.plane.cues[kCueDense].status, CueStatus::kAbsent);
+    if (k < 5) continue;
+    EXPECT_EQ(out.plane.status, GroundStatus::kOk);
+    EXPECT_EQ(out.plane.reason, GroundReason::kImageMissing);
+    EXPECT_NEAR(run.scale_error(out), 0.0, 0.03);
+  }
+}
+
+TEST(GroundEstimator, HoldsThePlaneWithNeitherImageNorPoints) {
+  Rehearsal run;
+  for (int k = 0; k < 20; ++k) run.step(k);
+  run.with_images = false;
+  run.script.num_points = run.script.num_outliers = 0;
+  const GroundOutput& out = run.step(20);
+  EXPECT_EQ(out.plane.status, GroundStatus::kHeld);
+  EXPECT_EQ(out.plane.reason, GroundReason::kImageMissing);
+  EXPECT_DOUBLE_EQ(out.plane.height_m, test::kRoadHeight);
+  EXPECT_EQ(out.ego.status, EgoStatus::kScaleHeld);
+}
+
+TEST(GroundEstimator, RefusesAnImageOfAnotherSize) {
+  Rehearsal run;
+  for (int k = 0; k < 10; ++k) run.step(k);
+  VoOutput vo;
+  test::script_vo(footage().poses, 10, run.script, &vo);
+  const test::GreyImage small(320, 120);
+  const GroundOutput& out = run.estimator.update({&vo, small.view()}, run.probe);
+  EXPECT_EQ(out.plane.reason, GroundReason::kImageMissing);
+}
+
+TEST(GroundEstimator, FreezesAtStandstill) {
+  Rehearsal run;
+  GroundOutput before;
+  for (int k = 0; k < 20; ++k) before = run.step(k);
+  for (int k = 20; k < 60; ++k) {
+    VoOutput vo;
+    vo.seq = k;
+    vo.prev_seq = k - 1;
+    vo.capture_us = 100'000LL * k + 1'000'000;
+    vo.status = VoStatus::kStandstill;
+    const GroundOutput& out = run.step(vo, 19);
+    EXPECT_EQ(out.plane.status, GroundStatus::kHeld);
+    EXPECT_EQ(out.plane.reason, GroundReason::kStandstill);
+    EXPECT_EQ(out.ego.status, EgoStatus::kStandstill);
+    EXPECT_EQ(out.ego.log_scale, before.ego.log_scale);
+    EXPECT_EQ(out.plane.normal_cam, before.plane.normal_cam);
+    EXPECT_EQ(out.ego.T_world_cam.t, before.ego.T_world_cam.t);
+  }
+}
+
+TEST(GroundEstimator, FollowsANewUnitWhoseRatioIsRoughlyKnown) {
+  Rehearsal run;
+  for (int k = 0; k < 18; ++k) run.step(k);
+  run.script.metres_per_vo *= 1.2;
+  run.epoch = 1;
+  run.carry_std = 0.15;
+  for (int k = 18; k < 22; ++k) run.step(k);
+  const GroundOutput& out = run.step(22);
+  EXPECT_NEAR(run.scale_error(out), 0.0, 0.02);
+}
+
+TEST(GroundEstimator, StartsAnewInAUnitOfUnknownRatioWithoutLosingItsPlace) {
+  Rehearsal run;
+  for (int k = 0; k < 18; ++k) run.step(k);
+  run.script.metres_per_vo = 0.4;
+  run.epoch = 1;
+  run.carry_std = std::numeric_limits<double>::quiet_NaN();
+  GroundOutput out;
+  for (int k = 18; k < 36; ++k) out = run.step(k);
+  EXPECT_NEAR(run.scale_error(out), 0.0, 0.015);
+  EXPECT_EQ(out.ego.reset_counter, 0);
+  const Se3 truth = footage().poses[0].inverse() * footage().poses[35];
+  EXPECT_LT((out.ego.T_world_cam.t - truth.t).norm(), 0.02 * truth.t.norm());
+}
+
+TEST(GroundEstimator, SaysThatVoIsLost) {
+  Rehearsal run;
+  for (int k = 0; k < 10; ++k) run.step(k);
+  VoOutput vo;
+  vo.seq = 10;
+  vo.prev_seq = 9;
+  vo.status = VoStatus::kLost;
+  const GroundOutput& out = run.step(vo, 10);
+  EXPECT_EQ(out.plane.status, GroundStatus::kInvalid);
+  EXPECT_EQ(out.plane.reason, GroundReason::kVoLost);
+  EXPECT_EQ(out.ego.status, EgoStatus::kLost);
+}
+
+TEST(GroundEstimator, RepeatsItselfBitForBit) {
+  Rehearsal first, second;
+  for (int k = 0; k < 30; ++k) {
+    const GroundOutput& a = first.step(k);
+    const GroundOutput& b = second.step(k);
+    EXPECT_EQ(a.plane.height_m, b.plane.height_m);
+    EXPECT_EQ(a.plane.normal_cam, b.plane.normal_cam);
+    EXPECT_EQ(a.ego.T_world_cam.t, b.ego.T_world_cam.t);
+    EXPECT_EQ(a.ego.cov_world_cam, b.ego.cov_world_cam);
+  }
+}
+
+/// Names of the stages in order.
+class NamesProbe final : public StageProbe {
+ public:
+  void begin() override { names_ = "begin"; }
+  void mark(const char* name) override { names_ += std::string(" ") + name; }
+  [[nodiscard]] const std::string& names() const { return names_; }
+
+ private:
+  std::string names_;
+};
+
+TEST(GroundEstimator, MarksEveryStageInEveryFrame) {
+  Rehearsal run;
+  NamesProbe probe;
+  for (int k = 0; k < 6; ++k) {
+    VoOutput vo;
+    test::script_vo(footage().poses, k, run.script, &vo);
+    run.estimator.update({&vo, footage().images[static_cast<std::size_t>(k)].view()}, probe);
+    EXPECT_EQ(probe.names(), "begin pyramid dense points fuse ego");
+  }
+}
+
+}  // namespace
+}  // namespace plumb

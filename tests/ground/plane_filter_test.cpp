@@ -1,0 +1,156 @@
+#include "modules/ground/plane_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/support/central_difference.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kStepRatio = 0.6;
+
+PlaneFilter started(double ln_height) {
+  PlaneFilter filter;
+  filter.start(Eigen::Vector3d(0.01, 1.0, 0.02).normalized(), ln_height);
+  return filter;
+}
+
+Eigen::Matrix3d plane_cov() {
+  return Eigen::Vector3d(0.007 * 0.007, 0.007 * 0.007, 0.03 * 0.03).asDiagonal();
+}
+
+/// One frame of driving straight, with a plane measured as `state`.
+void drive_frame(PlaneFilter* filter, const Eigen::Vector3d& state) {
+  filter->predict(Eigen::Matrix3d::Identity(), kStepRatio);
+  const bool used = filter->observe_plane(state, plane_cov());
+  filter->end_frame(used, !used);
+}
+
+TEST(PlaneFilter, JacobiansMatchCentralDifferences) {
+  const Eigen::Vector3d x(0.05, -0.08, 0.4);
+  const auto normal = [](const Eigen::Vector2d& n13) {
+    return normal_of_state(Eigen::Vector3d(n13(0), n13(1), 0.0));
+  };
+  const auto expected_normal =
+      test::central_difference<3, 2>(normal, Eigen::Matrix<double, 2, 1>(x.head<2>()), 1e-6);
+  EXPECT_TRUE(normal_jacobian(x).isApprox(expected_normal, 1e-7));
+  const auto plane = [](const Eigen::Vector3d& y) {
+    return Eigen::Vector3d(normal_of_state(y) * std::exp(-y(2)));
+  };
+  EXPECT_TRUE(plane_jacobian(x).isApprox(test::central_difference<3, 3>(plane, x, 1e-6), 1e-7));
+}
+
+TEST(PlaneFilter, TurnsTheNormalAgainstTheCamera) {
+  PlaneFilter filter = started(0.0);
+  const Eigen::Vector3d before = filter.normal();
+  const Eigen::Matrix3d R_prev_cam = exp_so3(Eigen::Vector3d(-0.02, 0.3, 0.01));
+  filter.predict(R_prev_cam, kStepRatio);
+  EXPECT_TRUE(filter.normal().isApprox(R_prev_cam.transpose() * before, 1e-12));
+}
+
+TEST(PlaneFilter, PredictionIsAsUncertainAsItsJacobianSays) {
+  PlaneFilter filter = started(0.0);
+  const Eigen::Matrix3d R_prev_cam = exp_so3(Eigen::Vector3d(0.03, 0.5, -0.02));
+  const auto predicted = [&](const Eigen::Vector3d& x) {
+    const Eigen::Vector3d n = R_prev_cam.transpose() * normal_of_state(x);
+    return Eigen::Vector3d(n.x(), n.z(), x(2));
+  };
+  const Eigen::Matrix3d F = test::central_difference<3, 3>(predicted, filter.state(), 1e-6);
+  const Eigen::Matrix3d P = F * filter.cov() * F.transpose();
+  filter.predict(R_prev_cam, kStepRatio);
+  const Eigen::Matrix3d added = filter.cov() - P;
+  EXPECT_NEAR(added(0, 1), 0.0, 1e-10);  // what is added is noise, independent per component
+  EXPECT_GT(added(0, 0), 0.0);
+  EXPECT_NEAR(added(0, 0), added(1, 1), 1e-10);
+}
+
+TEST(PlaneFilter, ConvergesToWhatItIsTold) {
+  PlaneFilter filter = started(0.1);
+  const Eigen::Vector3d truth(0.0, 0.03, 0.0);
+  for (int k = 0; k < 60; ++k) drive_frame(&filter, truth);
+  EXPECT_TRUE(filter.state().isApprox(truth, 0.05));
+  EXPECT_LT(filter.ln_height_std(), 0.015);
+}
+
+TEST(PlaneFilter, ShrugsOffASingleWildPlane) {
+  PlaneFilter filter = started(0.0);
+  for (int k = 0; k < 30; ++k) drive_frame(&filter, filter.state());
+  const double before = filter.state()(2);
+  drive_frame(&filter, filter.state() + Eigen::Vector3d(0.0, 0.0, 0.6));
+  EXPECT_NEAR(filter.state()(2), before, 1e-9);
+}
+
+TEST(PlaneFilter, ReacquiresAfterALockOut) {
+  PlaneFilter filter = started(0.0);
+  for (int k = 0; k < 60; ++k) drive_frame(&filter, filter.state());
+  // WHEN VO's unit jumps by 30 % without saying so
+  const Eigen::Vector3d truth = filter.state() + Eigen::Vector3d(0.0, 0.0, 0.26);
+  int frames = 0;
+  while (std::abs(filter.state()(2) - truth(2)) > 0.03 && frames < 100) {
+    drive_frame(&filter, truth);
+    ++frames;
+  }
+  // THEN the gate first holds, then opens
+  EXPECT_GE(frames, 10);
+  EXPECT_LE(frames, 30);
+}
+
+TEST(PlaneFilter, FollowsAnAnnouncedChangeOfUnitAtOnce) {
+  PlaneFilter filter = started(0.0);
+  for (int k = 0; k < 60; ++k) drive_frame(&filter, filter.state());
+  const Eigen::Vector3d truth = filter.state() + Eigen::Vector3d(0.0, 0.0, 0.15);
+  filter.change_unit(0.2);
+  for (int k = 0; k < 4; ++k) drive_frame(&filter, truth);
+  EXPECT_NEAR(filter.state()(2), truth(2), 0.02);
+}
+
+TEST(PlaneFilter, ForgetsTheScaleWhenNothingIsKnownOfTheNewUnit) {
+  PlaneFilter filter = started(0.0);
+  filter.change_unit(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(filter.started());
+}
+
+TEST(PlaneFilter, PointsTellHeightOnlyAsWellAsTheTiltIsKnown) {
+  PlaneFilter filter = started(0.0);
+  const double var_before = filter.cov()(2, 2);
+  // Ten heights ahead, half a degree of tilt moves the height by nine per cent.
+  ASSERT_TRUE(filter.observe_point(filter.normal() + Eigen::Vector3d(0.0, 0.0, 10.0), 1e-6));
+  EXPECT_GT(filter.cov()(2, 2), 0.5 * var_before);
+  EXPECT_GT(std::abs(filter.cov()(1, 2)), 0.0);
+}
+
+TEST(PlaneFilter, DeviationsMatchTheErrorsOfItsOwnModel) {
+  std::mt19937 random(20);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  double sum = 0.0;
+  int num = 0;
+  for (int run = 0; run < 60; ++run) {
+    Eigen::Vector3d truth(0.0, 0.0, 0.0);
+    PlaneFilter filter = started(0.1 * normal(random));
+    for (int k = 0; k < 60; ++k) {
+      // The model's own noise for one reference step: tilt 0.13 degrees, ln h 0.4 %.
+      const double tilt = 0.13 * 0.017453292519943295;
+      truth +=
+          Eigen::Vector3d(tilt * normal(random), tilt * normal(random), 0.004 * normal(random));
+      const Eigen::Vector3d seen =
+          truth +
+          Eigen::Vector3d(0.007 * normal(random), 0.007 * normal(random), 0.03 * normal(random));
+      drive_frame(&filter, seen);
+      if (k < 20) continue;
+      const Eigen::Vector3d e = filter.state() - truth;
+      sum += e.dot(filter.cov().inverse() * e) / 3.0;
+      ++num;
+    }
+  }
+  const double nees = sum / num;
+  EXPECT_GT(nees, 0.7);
+  EXPECT_LT(nees, 1.5);
+}
+
+}  // namespace
+}  // namespace plumb
