@@ -11,16 +11,15 @@ constexpr float kMinVarianceGrey2 = 1.0F;
 constexpr float kMinIsotropy = 1e-6F;
 constexpr float kConvergedPx2 = 1e-4F;
 
-float bilinear(const ImageView& image, float u, float v) {
-  const int ui = static_cast<int>(u);
-  const int vi = static_cast<int>(v);
-  const float fu = u - static_cast<float>(ui);
-  const float fv = v - static_cast<float>(vi);
-  const std::uint8_t* p = image.row(vi) + ui;
+// Fixed point with 8 fractional bits: the result is grey << 16.
+int bilinear_fixed(const ImageView& image, int u_fixed, int v_fixed) {
+  const int fu = u_fixed & 255;
+  const int fv = v_fixed & 255;
+  const std::uint8_t* p = image.row(v_fixed >> 8) + (u_fixed >> 8);
   const std::uint8_t* q = p + image.stride_bytes;
-  const float top = static_cast<float>(p[0]) + fu * static_cast<float>(p[1] - p[0]);
-  const float bottom = static_cast<float>(q[0]) + fu * static_cast<float>(q[1] - q[0]);
-  return top + fv * (bottom - top);
+  const int top = (p[0] << 8) + fu * (p[1] - p[0]);
+  const int bottom = (q[0] << 8) + fu * (q[1] - q[0]);
+  return (top << 8) + fv * (bottom - top);
 }
 
 [[gnu::always_inline]] inline Float8 lerp_bytes(const std::uint8_t* p, float f) {
@@ -73,16 +72,20 @@ bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px,
         px.y() + reach_v <= static_cast<float>(image.height_px - 3))) {
     return false;
   }
-  alignas(32) Raw raw;
+  // Positions in 1/2^16 pixel, so that the steps along a row stay exact enough over it.
+  constexpr float kFixed = 65536.0F;
+  const auto du = static_cast<int>(A(0, 0) * kFixed);
+  const auto dv = static_cast<int>(A(1, 0) * kFixed);
+  alignas(32) Raw raw{};
+  int grey[kRawSize];
   for (int j = 0; j < kRawSize; ++j) {
     const float y = static_cast<float>(j) - kReach;
-    const float u = px.x() + A(0, 1) * y - A(0, 0) * kReach;
-    const float v = px.y() + A(1, 1) * y - A(1, 0) * kReach;
-    for (int i = 0; i < kRawSize; ++i) {
-      const auto x = static_cast<float>(i);
-      raw[j][i] = bilinear(image, u + A(0, 0) * x, v + A(1, 0) * x);
+    auto u = static_cast<int>((px.x() + A(0, 1) * y - A(0, 0) * kReach) * kFixed) + 128;
+    auto v = static_cast<int>((px.y() + A(1, 1) * y - A(1, 0) * kReach) * kFixed) + 128;
+    for (int i = 0; i < kRawSize; ++i, u += du, v += dv) {
+      grey[i] = bilinear_fixed(image, u >> 8, v >> 8);
     }
-    for (int i = kRawSize; i < 8 * kRawVectors; ++i) raw[j][i] = 0.0F;
+    for (int i = 0; i < kRawSize; ++i) raw[j][i] = static_cast<float>(grey[i]) / kFixed;
   }
   return prepare(raw);
 }

@@ -23,8 +23,9 @@ constexpr double kUsableDepth = 0.5;
 constexpr AlignLimits kAnchorLimits{};
 // A search on level l finds what is kReachPx 2^l away.
 constexpr int kReachPx = 4;
+constexpr int kRetryLevel = 2;
 constexpr float kUnknownStdPx = 30.0F;
-constexpr double kMinStdPx = 1.0;
+constexpr double kMinStdPx = 0.5;
 
 Eigen::Matrix2f inverse_of(const Eigen::Matrix2d& B) { return B.inverse().cast<float>(); }
 
@@ -102,9 +103,12 @@ int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, 
     Track& track = tracks[index];
     const Guess& guess = guesses_[static_cast<std::size_t>(index)];
     const Eigen::Vector2f start = track.prev_px.cast<float>();
-    int level = wide ? coarsest : 1;
+    int level = wide ? coarsest : 0;
     while (level < coarsest && static_cast<float>(kReachPx << level) < 2.0F * guess.std_px) ++level;
-    const KltMatch there = klt_search(from, start, to, guess.px, guess.scale, level);
+    KltMatch there = klt_search(from, start, to, guess.px, guess.scale, level);
+    if (level < kRetryLevel && there.ncc < kMinSearchNcc) {
+      there = klt_search(from, start, to, guess.px, guess.scale, kRetryLevel);
+    }
     if (!there.ok() || there.ncc < kMinSearchNcc || !inside(there.px.cast<double>())) continue;
     const KltMatch back = klt_search(to, there.px, from, start, 1.0F / guess.scale, 0);
     if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) continue;
