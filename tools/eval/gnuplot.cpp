@@ -1,7 +1,7 @@
 #include "tools/eval/gnuplot.hpp"
 
+#include <algorithm>
 #include <cstdio>
-#include <memory>
 
 #include "tools/support/input_error.hpp"
 #include "tools/support/text.hpp"
@@ -26,6 +26,40 @@ std::string data_block(const std::string& name, const Curve& curve) {
   return text + "EOD\n";
 }
 
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+  void take(const std::vector<double>& values) {
+    for (const double value : values) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  [[nodiscard]] double span() const { return high - low; }
+  void widen(double span_wanted) {
+    const double more = std::max(0.0, span_wanted - span()) / 2.0;
+    low -= more;
+    high += more;
+  }
+};
+
+/// A map around the origin and every curve; a straight drive still gets some width.
+std::string map_ranges(const Plot& plot) {
+  constexpr double kLeastShape = 0.6;
+  Range x, y;
+  for (const Curve& curve : plot.curves) {
+    x.take(curve.x);
+    y.take(curve.y);
+  }
+  const double longest = std::max({x.span(), y.span(), 1.0});
+  for (Range* range : {&x, &y}) {
+    range->widen(kLeastShape * longest);
+    range->widen(1.06 * range->span());
+  }
+  return format("set size ratio -1\nset xrange [%g:%g]\nset yrange [%g:%g]\n", x.low, x.high, y.low,
+                y.high);
+}
+
 std::string script_of(const Plot& plot, std::size_t index) {
   std::string data;
   std::string command = "plot ";
@@ -40,8 +74,12 @@ std::string script_of(const Plot& plot, std::size_t index) {
   }
   std::string script = data + "set title " + quoted(plot.title) + " noenhanced\nset xlabel " +
                        quoted(plot.x_label) + "\nset ylabel " + quoted(plot.y_label) + "\n";
-  script += plot.equal_axes ? "set size ratio -1\n" : "set size noratio\n";
-  script += plot.y_from_zero ? "set yrange [0:*]\n" : "set yrange [*:*]\n";
+  if (plot.equal_axes) {
+    script += map_ranges(plot);
+  } else {
+    script += "set size noratio\nset xrange [*:*]\n";
+    script += plot.y_from_zero ? "set yrange [0:*]\n" : "set yrange [*:*]\n";
+  }
   return script + command + "\n";
 }
 

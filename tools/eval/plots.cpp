@@ -48,10 +48,8 @@ std::vector<Plot> error_plots(const TrajectoryReport& report, const std::string&
     t.curves.push_back(t_curve);
     r.curves.push_back(r_curve);
   };
-  add(report.sequences.size() == 1 ? report.sequences.front().name : "all", report.pooled);
-  if (report.sequences.size() > 1) {
-    for (const SequenceReport& sequence : report.sequences) add(sequence.name, sequence.summary);
-  }
+  for (const SequenceReport& sequence : report.sequences) add(sequence.name, sequence.summary);
+  if (t.curves.size() > 1) add("all", report.pooled);
   return {t, r};
 }
 
