@@ -132,11 +132,12 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   return m.out;
 }
 
-/// A car that stands shows the same image again and again: keep the older views instead.
+/// A car that stands shows the same view again and again: one of them is enough, beside the older views.
 void GroundEstimator::Impl::take_image(const GroundInput& input) {
   if (!ring.fits(input.image)) return;
-  const bool stands = input.vo->status == VoStatus::kStandstill && ring.newest() != nullptr;
-  frame.image = stands ? ring.newest() : &ring.push(input.vo->seq, input.image);
+  const std::int64_t seq = input.vo->seq;
+  const bool stands = input.vo->status == VoStatus::kStandstill;
+  frame.image = stands ? &ring.replace_newest(seq, input.image) : &ring.push(seq, input.image);
 }
 
 void GroundEstimator::Impl::follow_scale_epoch(const VoOutput& vo) {

@@ -48,9 +48,9 @@ const Pyramid& ImageRing::push(std::int64_t seq, const ImageView& image) {
   return slot;
 }
 
-const Pyramid* ImageRing::newest() const {
-  const std::size_t last = (next_ + kCapacity - 1) % kCapacity;
-  return seqs_[last] == kNone ? nullptr : &pyramids_[last];
+const Pyramid& ImageRing::replace_newest(std::int64_t seq, const ImageView& image) {
+  next_ = (next_ + kCapacity - 1) % kCapacity;
+  return push(seq, image);
 }
 
 const Pyramid* ImageRing::find(std::int64_t seq) const {

@@ -31,12 +31,11 @@ class ImageRing {
 
   /// Keeps a copy; the oldest image goes. @pre fits(image)
   const Pyramid& push(std::int64_t seq, const ImageView& image);
+  /// The same, but the newest image goes, so that the older views stay. @pre fits(image)
+  const Pyramid& replace_newest(std::int64_t seq, const ImageView& image);
 
   /// Null when the image of `seq` is not held.
   [[nodiscard]] const Pyramid* find(std::int64_t seq) const;
-
-  /// Null when the ring is empty.
-  [[nodiscard]] const Pyramid* newest() const;
 
  private:
   static constexpr std::int64_t kNone = -1;
