@@ -53,12 +53,14 @@ class ChildProcess {
   /// Exit code; 128 + signal when killed by one; -1 when it still runs after `timeout_s`.
   int wait(double timeout_s = 20.0) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
-    while (!exited_ && std::chrono::steady_clock::now() < end) {
+    while (!exited_) {
       drain();
       int status = 0;
       if (::waitpid(pid_, &status, WNOHANG) == pid_) {
         exited_ = true;
         code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+      } else if (std::chrono::steady_clock::now() >= end) {
+        break;
       } else {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }

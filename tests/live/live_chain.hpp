@@ -1,0 +1,111 @@
+/// The live chain as real processes: plumb-vo, plumb-ground, plumb-can, fed by the stock lcm-logplayer.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform/bus.hpp"
+#include "platform/clock.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace plumb::test {
+
+/// What a run of the chain left behind.
+struct LiveResult {
+  using Messages = std::vector<std::vector<std::uint8_t>>;
+  bool ready = false;   ///< every process reported its health before the log began
+  bool played = false;  ///< lcm-logplayer ended well
+  Messages planes;      ///< bytes on GROUND_PLANE, in order
+  Messages egos;
+  process_health_t vo;  ///< the newest report
+  process_health_t ground;
+  process_health_t can;
+  int exit_codes[3] = {-1, -1, -1};
+  std::string output;  ///< what the processes printed
+};
+
+class LiveChain {
+ public:
+  /// `url` of a network that carries nothing else.
+  LiveChain(const std::string& url, const std::string& trace_path)
+      : url_(url), bus_(url, &counters_) {
+    start({"plumb-can", "--lcm-url", url, "--trace", trace_path});
+    start({"plumb-ground", "--lcm-url", url});
+    start({"plumb-vo", "--lcm-url", url});
+  }
+
+  LiveResult play(const std::string& log, const std::string& speed) {
+    LiveResult result;
+    result.ready = handle_until(
+        20.0, [this] { return vo_.num_seen > 0 && ground_.num_seen > 0 && can_.num_seen > 0; });
+    ChildProcess player({"lcm-logplayer", "-l", url_, "-s", speed, log});
+    int code = -1;
+    handle_until(120.0, [&] { return (code = player.wait(0.0)) >= 0; });
+    result.played = code == 0;
+    handle_until(30.0, [this] { return monotonic_us() - last_message_us_ > 1'500'000; });
+    for (std::size_t i = 0; i < children_.size(); ++i) children_[i]->signal(SIGTERM);
+    for (std::size_t i = 0; i < children_.size(); ++i) {
+      result.exit_codes[i] = children_[i]->wait(10.0);
+      result.output += children_[i]->output();
+    }
+    while (bus_.handle(50)) {
+    }
+    result.planes = std::move(planes_);
+    result.egos = std::move(egos_);
+    result.vo = vo_.newest;
+    result.ground = ground_.newest;
+    result.can = can_.newest;
+    return result;
+  }
+
+ private:
+  struct HealthOf {
+    HealthOf(Bus& bus, const Channel& channel)
+        : in(bus, channel, Input::kOccasional, [this](const process_health_t& m) {
+            newest = m;
+            ++num_seen;
+            return nullptr;
+          }) {}
+    int num_seen = 0;
+    process_health_t newest;
+    Subscriber<process_health_t> in;
+  };
+
+  void start(std::vector<std::string> arguments) {
+    children_.push_back(std::make_unique<ChildProcess>(std::move(arguments)));
+  }
+  const char* keep(LiveResult::Messages* list, RawSubscriber::Bytes bytes) {
+    list->emplace_back(bytes.begin(), bytes.end());
+    last_message_us_ = monotonic_us();
+    return nullptr;
+  }
+  template <typename Done>
+  bool handle_until(double timeout_s, Done done) {
+    const std::int64_t end_us = monotonic_us() + static_cast<std::int64_t>(timeout_s * 1e6);
+    while (monotonic_us() < end_us) {
+      bus_.handle(20);
+      if (done()) return true;
+    }
+    return false;
+  }
+
+  std::string url_;
+  Counters counters_;
+  Bus bus_;
+  std::int64_t last_message_us_ = 0;
+  LiveResult::Messages planes_;
+  LiveResult::Messages egos_;
+  RawSubscriber plane_in_{bus_, kGroundPlane, Input::kOccasional,
+                          [this](RawSubscriber::Bytes b) { return keep(&planes_, b); }};
+  RawSubscriber ego_in_{bus_, kEgoMotion, Input::kOccasional,
+                        [this](RawSubscriber::Bytes b) { return keep(&egos_, b); }};
+  HealthOf vo_{bus_, kHealthVo};
+  HealthOf ground_{bus_, kHealthGround};
+  HealthOf can_{bus_, kHealthCan};
+  std::vector<std::unique_ptr<ChildProcess>> children_;
+};
+
+}  // namespace plumb::test

@@ -1,0 +1,194 @@
+// A log played by lcm-logplayer into the live processes gives the same bits as the replay, and nothing is lost.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <map>
+
+#include "platform/can_trace.hpp"
+#include "tests/live/live_chain.hpp"
+#include "tests/platform/temp_file.hpp"
+#include "tests/replay/street_log.hpp"
+#include "tests/support/kitti_data.hpp"
+#include "tests/support/private_network.hpp"
+
+namespace plumb {
+namespace {
+
+using test::LiveResult;
+using test::StoredEvent;
+
+// What the replay makes of a log, in the messages' own bytes.
+struct Expected {
+  std::int64_t num_images = 0;
+  std::int64_t num_calibrations = 0;
+  LiveResult::Messages planes;
+  LiveResult::Messages egos;
+};
+
+template <typename Message>
+std::vector<std::uint8_t> bytes_of(const Message& message) {
+  return test::stored(0, kCamera, message).data;
+}
+
+Expected replay(const std::string& log) {
+  Expected expected;
+  Replay replay(PlumbConfig{}, 1, nullptr, [&](const FrameRecord& frame) {
+    EXPECT_EQ(nullptr, frame.refused) << frame.refused;
+    if (frame.plane == nullptr) return;
+    expected.planes.push_back(bytes_of(*frame.plane));
+    expected.egos.push_back(bytes_of(*frame.ego));
+  });
+  LogReader reader(log);
+  LogEvent event;
+  while (reader.next(&event)) {
+    if (event.channel == kCameraCalibration.name) ++expected.num_calibrations;
+    if (event.channel == kCamera.name) ++expected.num_images;
+    replay.take(event);
+  }
+  EXPECT_TRUE(reader.problems().empty());
+  return expected;
+}
+
+// Per CAN identifier, what was said about each camera frame: without CRC, alive counter, repeats, and bursts that say
+// "not available" for want of input, which the log's end brings live and not in the replay.
+std::map<std::uint32_t, std::vector<std::string>> said_on_can(const std::string& path) {
+  constexpr std::uint32_t kFirstId = 0x3A0;
+  constexpr std::uint32_t kStatusId = 0x3A7;  // counters and times of the process itself
+  std::map<std::uint32_t, std::vector<std::string>> said;
+  CanTraceReader reader(path);
+  CanFrame frame;
+  std::int64_t time_us = 0;
+  while (reader.next(&time_us, &frame)) {
+    EXPECT_GE(frame.id, kFirstId);
+    if (frame.id >= kStatusId) continue;
+    const bool detail = frame.id == 0x3A1 || frame.id == 0x3A3;
+    const int validity = frame.data[1] >> 4;  // the two Detail messages have a 4-bit status there
+    if (detail ? validity == 0xF : (validity & 3) == 3) continue;
+    std::string text(1, static_cast<char>(frame.data[1] & 0xF0U));
+    text.append(reinterpret_cast<const char*>(&frame.data[2]), frame.size - 2U);
+    auto& list = said[frame.id];
+    if (list.empty() || list.back() != text) list.push_back(text);
+  }
+  EXPECT_EQ("", reader.error());
+  return said;
+}
+
+void expect_nothing_lost(const Expected& expected, const LiveResult& live) {
+  EXPECT_EQ(expected.num_images + expected.num_calibrations, live.vo.num_received);
+  EXPECT_EQ(expected.num_images, live.vo.num_published);
+  EXPECT_EQ(2 * expected.num_images + expected.num_calibrations, live.ground.num_received);
+  EXPECT_EQ(2 * expected.num_images, live.ground.num_published);
+  EXPECT_EQ(2 * expected.num_images, live.can.num_received);
+  for (const process_health_t* m : {&live.vo, &live.ground, &live.can}) {
+    EXPECT_EQ(0, m->num_dropped) << m->process;
+    EXPECT_EQ(0, m->num_rejected) << m->process;
+    EXPECT_EQ(0, m->num_unsent) << m->process;
+    EXPECT_EQ(3, m->state) << m->process << " said goodbye";
+    std::printf("  %-7s received %lld, late %lld, receive buffer %d bytes, peak %.1f MB\n",
+                m->process.c_str(), static_cast<long long>(m->num_received),
+                static_cast<long long>(m->num_late), m->receive_buffer_bytes,
+                static_cast<double>(m->memory_peak_bytes) * 1e-6);
+    for (const stage_latency_t& stage : m->stages) {
+      if (stage.name == "total")
+        std::printf("  %-7s frame: median %.0f us, p99 %.0f us, max %.0f us\n", "", stage.median_us,
+                    stage.p99_us, stage.max_us);
+    }
+  }
+}
+
+void expect_same_can(const std::string& log, const std::string& live_trace) {
+  const test::TempFile replay_trace(".can");
+  test::ChildProcess program({"plumb-replay", log, "--can", replay_trace.path()});
+  ASSERT_EQ(0, program.wait(120.0)) << program.output();
+  const auto expected = said_on_can(replay_trace.path());
+  const auto live = said_on_can(live_trace);
+  EXPECT_EQ(7U, expected.size()) << "identifiers 3A0 to 3A6";
+  for (const auto& [id, list] : expected) {
+    ASSERT_TRUE(live.count(id) == 1) << std::hex << id;
+    EXPECT_TRUE(list == live.at(id)) << std::hex << id << std::dec << ": " << live.at(id).size()
+                                     << " distinct live, " << list.size() << " in the replay";
+  }
+}
+
+void expect_live_equals_replay(const std::string& log, const std::string& speed) {
+  const test::TempFile trace(".can");
+  test::LiveChain chain("udpm://239.255.76.67:7667?ttl=0", trace.path());
+  const LiveResult live = chain.play(log, speed);
+  ASSERT_TRUE(live.ready) << live.output;
+  ASSERT_TRUE(live.played);
+  for (const int code : live.exit_codes) EXPECT_EQ(0, code) << live.output;
+  const Expected expected = replay(log);
+  expect_nothing_lost(expected, live);
+  EXPECT_EQ(static_cast<std::size_t>(expected.num_images), live.planes.size());
+  EXPECT_TRUE(expected.planes == live.planes) << "GROUND_PLANE differs";
+  EXPECT_TRUE(expected.egos == live.egos) << "EGO_MOTION differs";
+  expect_same_can(log, trace.path());
+}
+
+// A real drive where there is one.
+bool convert_real(const std::string& sequence, const std::string& log) {
+  const std::filesystem::path folder = test::kitti_sequence(sequence);
+  if (folder.empty()) return false;
+  test::ChildProcess program({"plumb-kitti2lcm", folder.string(), "--out", log});
+  EXPECT_EQ(0, program.wait(60.0)) << program.output();
+  return true;
+}
+
+// The rendered street at KITTI's size, each pixel four times: 466 kB an image.
+void write_large_street(const std::string& log) {
+  std::vector<StoredEvent> events;
+  for (const StoredEvent& event : test::street_events()) {
+    if (event.channel != kCamera.name) {
+      CameraModel camera = test::scene_camera();
+      camera.width_px *= 2;
+      camera.height_px *= 2;
+      camera.fx_px = camera.fy_px *= 2.0;
+      camera.cx_px = 2.0 * camera.cx_px + 0.5;
+      camera.cy_px = 2.0 * camera.cy_px + 0.5;
+      events.push_back(
+          test::stored(event.log_us, kCameraCalibration, to_wire(camera, event.log_us)));
+      continue;
+    }
+    ImageFrame small;
+    ASSERT_EQ(nullptr, read_image(event.data, &small));
+    const int width = 2 * small.width_px;
+    std::vector<std::uint8_t> pixels;
+    for (int v = 0; v < 2 * small.height_px; ++v)
+      for (int u = 0; u < width; ++u)
+        pixels.push_back(small.data[static_cast<std::size_t>(v / 2 * small.width_px + u / 2)]);
+    events.push_back(test::image_event(
+        small.seq, {pixels.data(), width, 2 * small.height_px, width}, small.capture_us));
+  }
+  test::write_log(log, events);
+}
+
+class LiveEqualsReplay : public testing::Test {
+ protected:
+  void SetUp() override {
+    static const bool is_private = test::enter_private_network();
+    if (!is_private) GTEST_SKIP() << test::kNoPrivateNetwork;
+  }
+  test::TempFile log_{".lcm"};
+};
+
+TEST_F(LiveEqualsReplay, AtRealTime) {
+  if (!convert_real("odometry/sequences/04_000-050", log_.path())) write_large_street(log_.path());
+  expect_live_equals_replay(log_.path(), "1");
+}
+
+TEST_F(LiveEqualsReplay, AtFiveTimesRealTimeWithoutLosingAnything) {
+  if (!convert_real("raw/drive0039_024-400", log_.path())) write_large_street(log_.path());
+  expect_live_equals_replay(log_.path(), "5");
+}
+
+TEST_F(LiveEqualsReplay, WithCompressedImages) {
+  const std::filesystem::path folder = test::kitti_sequence("odometry/sequences/04_000-050");
+  if (folder.empty()) GTEST_SKIP() << test::kNoKitti;
+  test::ChildProcess program(
+      {"plumb-kitti2lcm", folder.string(), "--compress", "jpeg", "--out", log_.path()});
+  ASSERT_EQ(0, program.wait(60.0)) << program.output();
+  expect_live_equals_replay(log_.path(), "2");
+}
+
+}  // namespace
+}  // namespace plumb
