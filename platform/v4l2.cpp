@@ -229,11 +229,11 @@ void V4l2Camera::close() {
 }
 
 V4l2Status V4l2Camera::take(V4l2Frame* frame) {
-  if (!give_back()) return lost(errno, "takes a buffer back");
+  release();
   v4l2_buffer buffer = capture_buffer(0);
   if (call(fd_, VIDIOC_DQBUF, &buffer) < 0) {
-    if (errno != EAGAIN) return lost(errno, "delivers a frame");
-    return has_hung_up() ? lost(EIO, "delivers a frame") : V4l2Status::kNothing;
+    if (errno != EAGAIN) return lost(errno);
+    return has_hung_up() ? lost(EIO) : V4l2Status::kNothing;
   }
   const Mapping& mapping = mappings_[buffer.index];
   held_ = static_cast<int>(buffer.index);
@@ -246,11 +246,12 @@ V4l2Status V4l2Camera::take(V4l2Frame* frame) {
   return (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 ? V4l2Status::kCorrupt : V4l2Status::kFrame;
 }
 
-bool V4l2Camera::give_back() {
-  if (held_ < 0) return true;
+void V4l2Camera::release() {
+  if (held_ < 0) return;
   v4l2_buffer buffer = capture_buffer(held_);
   held_ = -1;
-  return call(fd_, VIDIOC_QBUF, &buffer) == 0;
+  // A failure is the end of the stream, which the next take() reports.
+  (void)call(fd_, VIDIOC_QBUF, &buffer);
 }
 
 /// Without a frame to take, an error on the descriptor is the end of the stream.
@@ -260,10 +261,9 @@ bool V4l2Camera::has_hung_up() const {
   return (poll_fd.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0;
 }
 
-V4l2Status V4l2Camera::lost(int error, const char* what) {
+V4l2Status V4l2Camera::lost(int error) {
   const bool gone = error == ENODEV || error == ENXIO;
-  why_ = gone ? device_ + " was unplugged"
-              : device_ + " no longer " + what + ": " + std::strerror(error);
+  why_ = gone ? device_ + " was unplugged" : device_ + ": the stream died: " + std::strerror(error);
   return gone ? V4l2Status::kGone : V4l2Status::kFailed;
 }
 

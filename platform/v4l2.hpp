@@ -37,7 +37,7 @@ struct V4l2Format {
 };
 
 struct V4l2Frame {
-  std::span<const std::uint8_t> bytes;  ///< the driver's buffer; until the next call
+  std::span<const std::uint8_t> bytes;  ///< the driver's buffer; until release()
   std::int64_t stamp_us = 0;
   bool stamped_by_driver =
       false;                   ///< false: the driver keeps no monotonic time, this is dequeue time
@@ -72,9 +72,11 @@ class V4l2Camera {
   /// @pre is_open()
   [[nodiscard]] const V4l2Format& format() const { return format_; }
 
-  /// The oldest waiting frame; never blocks. Gives the previous frame's buffer back to the driver.
+  /// The oldest waiting frame; never blocks. Releases the previous one.
   /// @pre is_open()
   [[nodiscard]] V4l2Status take(V4l2Frame* frame);
+  /// Gives the frame's buffer back to the driver: the sooner, the fewer buffers it needs.
+  void release();
 
   /// Why open() refused, or take() returned kGone or kFailed.
   [[nodiscard]] const std::string& why() const { return why_; }
@@ -94,8 +96,7 @@ class V4l2Camera {
   bool choose_rate(double rate_hz);
   bool map_buffers(int count);
   bool start();
-  bool give_back();
-  V4l2Status lost(int error, const char* what);
+  V4l2Status lost(int error);
   [[nodiscard]] bool has_hung_up() const;
 
   int epoll_fd_ = -1;

@@ -42,6 +42,8 @@ class DeviceSource {
   [[nodiscard]] int fileno() const { return camera_.fileno(); }
   [[nodiscard]] bool is_open() const { return camera_.is_open(); }
   [[nodiscard]] DeviceStep take(GreyFrame* frame);
+  /// The frame has been used: its buffer goes back to the driver.
+  void release() { camera_.release(); }
 
   [[nodiscard]] const std::string& why() const { return why_; }
   [[nodiscard]] const char* rejection() const { return rejection_; }

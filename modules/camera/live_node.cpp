@@ -45,6 +45,8 @@ void LiveNode::on_ready() {
   process_.timer().mark("take");
   output_.publish(frame);
   process_.timer().end();
+  source_.release();
+  if (alive_us_ >= shown_until_us_) output_.show_fault();
 }
 
 void LiveNode::on_tick() {
@@ -75,6 +77,7 @@ void LiveNode::on_loss() {
   }
   text_ = source_.why() + "; opening it again";
   process_.health().set_condition(HealthState::kDegraded, text_.c_str());
+  shown_until_us_ = now_us + kLossShown_us;
   retry_us_ = now_us + back_off_.next_us();
 }
 
@@ -83,7 +86,6 @@ void LiveNode::on_exit() const { throw std::runtime_error(source_.why()); }
 void LiveNode::try_again() {
   if (!source_.reopen()) return on_loss();
   alive_us_ = monotonic_us();
-  process_.health().set_condition(HealthState::kWaiting, "the camera is open again, no frame yet");
 }
 
 }  // namespace plumb

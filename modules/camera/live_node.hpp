@@ -22,6 +22,8 @@ class LiveNode {
 
  private:
   static constexpr std::int64_t kTick_us = 100'000;
+  /// A loss stays in health this long, even when the camera is back at once.
+  static constexpr std::int64_t kLossShown_us = 2 * Process::kHealthPeriod_us;
 
   void on_ready();
   void on_tick();
@@ -39,7 +41,8 @@ class LiveNode {
   EventLoop::TimerId exit_timer_;
   std::int64_t alive_us_;      ///< when the device last gave a frame, or was opened
   std::int64_t retry_us_ = 0;  ///< when to open again; holds while the device is closed
-  std::string text_;           ///< room for sentences
+  std::int64_t shown_until_us_ = 0;
+  std::string text_;  ///< room for sentences
 };
 
 }  // namespace plumb

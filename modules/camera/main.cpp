@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <opencv2/core/utils/logger.hpp>
 #include <optional>
 #include <string>
 
@@ -76,6 +77,8 @@ class CameraProcess {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // What goes wrong is said once, in our own words.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::Process process(
       {"camera", "Camera, KITTI folder or video -> CAMERA", plumb::kHealthCamera});
   plumb::PlumbConfig config;

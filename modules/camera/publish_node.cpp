@@ -19,7 +19,9 @@ void PublishNode::publish(const GreyFrame& frame) {
   }
   image_.publish(node_.take(frame));
   process_.timer().mark("publish");
+}
 
+void PublishNode::show_fault() {
   if (node_.fault() == ImageFault::kNone) {
     process_.health().clear_condition();
   } else {

@@ -16,8 +16,11 @@ class PublishNode {
   PublishNode(Process& process, const CameraConfig& config, const std::filesystem::path& folder);
 
   /// Publishes the frame; the calibration goes before the first one and then once a second of the
-  /// camera's time. Judges the image for health. Marks stages, up to "publish".
+  /// camera's time. Marks stages, up to "publish".
   void publish(const GreyFrame& frame);
+
+  /// What is wrong with the newest images becomes the health of the process.
+  void show_fault();
 
  private:
   Process& process_;
