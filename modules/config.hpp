@@ -6,6 +6,7 @@
 #include "modules/can/can_config.hpp"
 #include "modules/detections/detections_config.hpp"
 #include "modules/ground/ground_config.hpp"
+#include "modules/objects/objects_config.hpp"
 #include "modules/vo/vo_config.hpp"
 
 namespace plumb {
@@ -15,6 +16,7 @@ struct PlumbConfig {
   VoConfig vo;
   DetectionsConfig detections;
   GroundConfig ground;
+  ObjectsConfig objects;
   CanConfig can;
 
   template <typename Config, typename Visit>
@@ -23,6 +25,7 @@ struct PlumbConfig {
     VoConfig::visit(c.vo, field);
     DetectionsConfig::visit(c.detections, field);
     GroundConfig::visit(c.ground, field);
+    ObjectsConfig::visit(c.objects, field);
     CanConfig::visit(c.can, field);
   }
 };

@@ -1,0 +1,95 @@
+#include "modules/objects/box_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace plumb {
+namespace {
+
+constexpr int kIterations = 6;
+constexpr double kFreedom = 4.0;      ///< of Student's t
+constexpr double kSettled = 1e-4;     ///< [m, rad, -] largest step that ends the iteration
+constexpr double kLargestStep = 0.7;  ///< of ln sizes and yaw in one iteration
+constexpr double kFarthest_m = 500.0;
+
+using Gain = Eigen::Matrix<double, kStateSize, 4>;
+using Edges = Eigen::Matrix<double, 4, kStateSize>;
+
+/// What the plane's roll and height, which the state leaves out, do to the edges.
+Eigen::Matrix4d plane_noise(const SeenCuboid& seen, const RoadPlane& plane) {
+  const Eigen::Matrix<double, 4, 2> J = seen.J_plane.rightCols<2>();
+  return J * plane.cov.bottomRightCorner<2, 2>() * J.transpose();
+}
+
+constexpr double kNotSeen = 1e12;  ///< [px^2] a variance that drops an edge
+
+/// Variances of the edges; a cut edge that the solution explains by going on beyond it is dropped.
+Eigen::Vector4d edge_variances(const MeasuredBox& box, const SeenCuboid& seen) {
+  constexpr std::array<double, 4> kOutward{-1.0, -1.0, 1.0, 1.0};
+  Eigen::Vector4d var_px2 = box.var_px2;
+  for (int i = 0; i < 4; ++i) {
+    const auto edge = static_cast<std::size_t>(i);
+    const double beyond = kOutward[edge] * (seen.edges_px(i) - box.edges_px(i));
+    if (box.cut[edge] && beyond >= 0.0) var_px2(i) = kNotSeen;
+  }
+  return var_px2;
+}
+
+/// Steps so long that the model is no longer linear are shortened.
+StateVector limited(const StateVector& from, const StateVector& to) {
+  double scale = 1.0;
+  for (const int row : {kYaw, kLogWidth, kLogRatio, kLogHeight}) {
+    const double step = std::abs(to(row) - from(row));
+    if (step > kLargestStep) scale = std::min(scale, kLargestStep / step);
+  }
+  const double step_m = (to - from).head<2>().norm();
+  const double most_m = 0.5 * from.head<2>().norm() + 1.0;
+  if (step_m > most_m) scale = std::min(scale, most_m / step_m);
+  return from + scale * (to - from);
+}
+
+}  // namespace
+
+BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane, double contact_inset_m,
+                     const MeasuredBox& box, const StateEstimate& prior) {
+  BoxFitResult result;
+  StateVector x = prior.x;
+  Eigen::Vector4d weight = Eigen::Vector4d::Ones();
+  Gain K = Gain::Zero();
+  Eigen::Matrix4d S = Eigen::Matrix4d::Identity();
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const auto seen = see_cuboid(camera, plane, x, contact_inset_m);
+    if (!seen) return result;
+    const Edges& H = seen->J_state;
+    const Eigen::Matrix4d shared = plane_noise(*seen, plane);
+    S = H * prior.P * H.transpose() + shared;
+    const Eigen::Vector4d var_px2 = edge_variances(box, *seen);
+    S.diagonal() += var_px2.cwiseQuotient(weight);
+    const Eigen::LLT<Eigen::Matrix4d> solver(S);
+    K = solver.solve(H * prior.P).transpose();
+    const Eigen::Vector4d residual = box.edges_px - seen->edges_px;
+    const Eigen::Vector4d innovation = residual - H * (prior.x - x);
+    result.cost = innovation.dot(solver.solve(innovation));
+    if (iteration == 0) result.chi2 = result.cost;
+    const StateVector next = limited(x, prior.x + K * innovation);
+    if (!next.allFinite() || next.head<2>().norm() > kFarthest_m) return result;
+    const Eigen::Vector4d left = residual - H * (next - x);
+    for (int i = 0; i < 4; ++i) {
+      const double e2 = left(i) * left(i) / (var_px2(i) + shared(i, i));
+      weight(i) = (kFreedom + 1.0) / (kFreedom + std::max(e2, 1.0));
+    }
+    const double moved = (next - x).cwiseAbs().maxCoeff();
+    x = next;
+    if (moved < kSettled) break;
+  }
+  result.estimate.x = x;
+  result.estimate.P = prior.P - K * S * K.transpose();
+  result.estimate.P = 0.5 * (result.estimate.P + result.estimate.P.transpose()).eval();
+  result.ok = true;
+  return result;
+}
+
+}  // namespace plumb

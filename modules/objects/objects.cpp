@@ -1,0 +1,247 @@
+#include "modules/objects/objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "modules/detections/box_screen.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kLeastClosing_m_s = 0.3;
+constexpr double kNearestRange_m = 0.5;
+constexpr double kMostRangeRatio = 1.5;  ///< of the distance at which boxes are still used
+constexpr double kPartlyHidden = 0.25;
+
+double overlap_of(const Eigen::Vector4d& a, const Box& b) {
+  const double width = std::min(a(2), b.right_px) - std::max(a(0), b.left_px);
+  const double height = std::min(a(3), b.bottom_px) - std::max(a(1), b.top_px);
+  if (width <= 0.0 || height <= 0.0) return 0.0;
+  const double both = width * height;
+  return both / ((a(2) - a(0)) * (a(3) - a(1)) + b.width_px() * b.height_px() - both);
+}
+
+double range_of(const StateEstimate& estimate) { return estimate.x.head<2>().norm(); }
+
+/// A new object's distance from its size alone, to compare it with those that are tracked.
+double rough_range_m(const TrackView& view, const Detection& detection) {
+  const HeightPrior known = view.detections.height_prior(detection.object_class);
+  const double height_m = known.mean_m > 0.0 ? known.mean_m : view.objects.unknown_height_m;
+  return height_m * view.camera.fy_px / detection.box.height_px();
+}
+
+Eigen::Vector3d size_std_of(const StateMatrix& P, const Eigen::Vector3d& size_m) {
+  const double length_var =
+      P(kLogWidth, kLogWidth) + P(kLogRatio, kLogRatio) + 2.0 * P(kLogWidth, kLogRatio);
+  return size_m.cwiseProduct(Eigen::Vector3d(std::sqrt(length_var),
+                                             std::sqrt(P(kLogWidth, kLogWidth)),
+                                             std::sqrt(P(kLogHeight, kLogHeight))));
+}
+
+/// Range over closing speed of the middle of the footprint.
+double time_to_collision(const StateEstimate& estimate, const GroundMotion& motion,
+                         bool over_ground) {
+  Eigen::Vector2d closing_m_s = estimate.x.segment<2>(kVelocityX);
+  if (over_ground && motion.dt_s > 0.0) closing_m_s -= motion.t_m / motion.dt_s;
+  const double range_m = range_of(estimate);
+  const double rate_m_s = estimate.x.head<2>().dot(closing_m_s) / range_m;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  return rate_m_s < -kLeastClosing_m_s ? range_m / -rate_m_s : nan;
+}
+
+}  // namespace
+
+ObjectTracker::ObjectTracker(const DetectionsConfig& detections, const ObjectsConfig& objects,
+                             const CameraModel& camera)
+    : detections_(detections), objects_(objects), camera_(camera) {}
+
+const ObjectsOutput& ObjectTracker::update(const ObjectsInput& input) {
+  const DetectionFrame& frame = *input.frame;
+  const TrackView view{detections_, objects_, camera_, input.plane};
+  output_ = {};
+  predict(view, input);
+  Matches matches;
+  match(view, frame, &matches);
+  for (std::size_t i = 0; i < frame.detections.size(); ++i) {
+    if (frame.detections[i].score < detections_.min_score) continue;
+    std::size_t slot = matches[i];
+    if (slot == kNone) slot = room_for(view, frame.detections[i]);
+    if (slot == kNone) {
+      ++output_.num_refused;
+    } else {
+      take(view, input, i, slot);
+    }
+  }
+  end_tracks(frame.capture_us);
+  report(view, input);
+  return output_;
+}
+
+void ObjectTracker::predict(const TrackView& view, const ObjectsInput& input) {
+  for (Slot& slot : slots_) {
+    if (!slot.in_use) continue;
+    slot.seen = false;
+    slot.reason = ObjectReason::kNotSeen;
+    if (slot.localised) slot.track.predict(view, input.motion);
+  }
+}
+
+void ObjectTracker::match(const TrackView& view, const DetectionFrame& frame, Matches* matches) {
+  matches->fill(kNone);
+  for (std::size_t i = 0; i < frame.detections.size(); ++i) {
+    const std::int32_t id = frame.detections[i].track_id;
+    for (std::size_t slot = 0; slot < kMaxObjects && id >= 0; ++slot) {
+      if (!slots_[slot].in_use || slots_[slot].track_id != id) continue;
+      (*matches)[i] = slot;
+      slots_[slot].seen = true;
+    }
+  }
+  match_by_overlap(view, frame, matches);
+}
+
+void ObjectTracker::match_by_overlap(const TrackView& view, const DetectionFrame& frame,
+                                     Matches* matches) {
+  for (std::size_t slot = 0; slot < kMaxObjects; ++slot) {
+    const bool open = slots_[slot].in_use && slots_[slot].localised && !slots_[slot].seen &&
+                      slots_[slot].track_id >= kFirstOwnId;
+    const auto seen =
+        open ? see_cuboid(camera_, view.plane, slots_[slot].track.estimate().x, 0.0) : std::nullopt;
+    for (std::size_t i = 0; i < frame.detections.size(); ++i) {
+      const Detection& detection = frame.detections[i];
+      overlap_[i][slot] = seen && detection.track_id < 0 && detection.score >= detections_.min_score
+                              ? overlap_of(seen->edges_px, detection.box)
+                              : 0.0;
+    }
+  }
+  // The best pair first; the first of equals, so that the order of the boxes decides.
+  while (true) {
+    double best = objects_.least_overlap_ratio;
+    std::size_t best_detection = kMaxDetections, best_slot = kNone;
+    for (std::size_t i = 0; i < frame.detections.size(); ++i) {
+      for (std::size_t slot = 0; slot < kMaxObjects; ++slot) {
+        if (overlap_[i][slot] <= best) continue;
+        best = overlap_[i][slot];
+        best_detection = i;
+        best_slot = slot;
+      }
+    }
+    if (best_slot == kNone) return;
+    (*matches)[best_detection] = best_slot;
+    slots_[best_slot].seen = true;
+    overlap_[best_detection].fill(0.0);
+    for (auto& row : overlap_) row[best_slot] = 0.0;
+  }
+}
+
+std::size_t ObjectTracker::room_for(const TrackView& view, const Detection& detection) {
+  std::size_t farthest = kNone;
+  double most_m = 0.0;
+  for (std::size_t slot = 0; slot < kMaxObjects; ++slot) {
+    if (!slots_[slot].in_use) return slot;
+    // What was never localised gives way first.
+    const double range_m = slots_[slot].localised ? range_of(slots_[slot].track.estimate())
+                                                  : std::numeric_limits<double>::infinity();
+    if (range_m <= most_m) continue;
+    most_m = range_m;
+    farthest = slot;
+  }
+  if (rough_range_m(view, detection) >= most_m) return kNone;
+  ++output_.num_refused;
+  slots_[farthest].in_use = false;
+  return farthest;
+}
+
+void ObjectTracker::take(const TrackView& view, const ObjectsInput& input, std::size_t index,
+                         std::size_t slot_index) {
+  const DetectionFrame& frame = *input.frame;
+  const Detection& detection = frame.detections[index];
+  const MeasuredBox box = measured_box(detections_, camera_, frame, index);
+  Slot& slot = slots_[slot_index];
+  const bool is_new = !slot.in_use;
+  if (is_new) {
+    slot = {};
+    slot.in_use = true;
+    slot.track_id = detection.track_id >= 0 ? detection.track_id : next_own_id_++;
+    slot.begun_us = frame.capture_us;
+  }
+  slot.seen = true;
+  slot.seen_us = frame.capture_us;
+  if (!slot.localised) {
+    slot.localised = slot.track.start(view, detection, box);
+    slot.reason = slot.localised ? ObjectReason::kNone : ObjectReason::kNoFit;
+  } else {
+    const bool fits = slot.track.correct(view, detection, box);
+    slot.reason = fits ? ObjectReason::kNone : ObjectReason::kMisfit;
+  }
+  if (slot.reason != ObjectReason::kNone) return;
+  slot.track.align_with_motion();
+  const HiddenEdges hidden = hidden_edges(frame, index);
+  if (!input.plane_measured) slot.reason = ObjectReason::kCalibratedPlane;
+  if (std::max(hidden.lower_ratio, hidden.upper_ratio) > kPartlyHidden) {
+    slot.reason = ObjectReason::kHidden;
+  }
+  if (cut_sides(camera_, detection.box, detections_.border_px).any()) {
+    slot.reason = ObjectReason::kCut;
+  }
+}
+
+void ObjectTracker::end_tracks(std::int64_t capture_us) {
+  const auto max_coast_us = static_cast<std::int64_t>(1e6 * objects_.max_coast_s);
+  for (Slot& slot : slots_) {
+    if (!slot.in_use) continue;
+    bool lost = capture_us - slot.seen_us > max_coast_us;
+    if (slot.localised && !slot.seen) {
+      // Behind the camera or out of reach it will not be seen again.
+      const StateVector& x = slot.track.estimate().x;
+      lost = lost || x(kX) < kNearestRange_m ||
+             x.head<2>().norm() > kMostRangeRatio * detections_.max_distance_m;
+    }
+    if (lost) slot.in_use = false;
+  }
+}
+
+void ObjectTracker::report(const TrackView& view, const ObjectsInput& input) {
+  output_.capture_us = input.frame->capture_us;
+  output_.seq = input.frame->seq;
+  for (const Slot& slot : slots_) {
+    if (!slot.in_use) continue;
+    ObjectOutput object;
+    object.track_id = slot.track_id;
+    object.object_class = slot.track.object_class();
+    object.reason = slot.reason;
+    object.age_s = 1e-6 * static_cast<double>(input.frame->capture_us - slot.begun_us);
+    object.time_to_collision_s = std::numeric_limits<double>::quiet_NaN();
+    if (slot.localised) {
+      const StateEstimate& estimate = slot.track.estimate();
+      const StateMatrix& P = estimate.P;
+      const bool predicted =
+          slot.reason == ObjectReason::kNotSeen || slot.reason == ObjectReason::kMisfit;
+      object.status = predicted ? ObjectStatus::kPredicted : ObjectStatus::kMeasured;
+      object.position_m = estimate.x.head<2>();
+      // The plane's height scales all positions together, frame after frame: it never averages out.
+      object.position_cov_m2 = P.topLeftCorner<2, 2>() + view.plane.cov(2, 2) * object.position_m *
+                                                             object.position_m.transpose();
+      object.velocity_holds = slot.track.over_ground();
+      object.velocity_m_s = estimate.x.segment<2>(kVelocityX);
+      object.velocity_cov_m2_s2 = P.block<2, 2>(kVelocityX, kVelocityX);
+      object.yaw_rad = estimate.x(kYaw);
+      object.yaw_std_rad = std::sqrt(P(kYaw, kYaw));
+      object.size_m = {length_of(estimate.x), width_of(estimate.x), height_of(estimate.x)};
+      object.size_std_m = size_std_of(P, object.size_m);
+      object.time_to_collision_s =
+          time_to_collision(estimate, input.motion, slot.track.over_ground());
+    }
+    if (!output_.objects.push_back(object)) ++output_.num_refused;
+  }
+  std::sort(output_.objects.begin(), output_.objects.end(),
+            [](const ObjectOutput& a, const ObjectOutput& b) {
+              const bool a_holds = a.status != ObjectStatus::kNotLocalised;
+              const bool b_holds = b.status != ObjectStatus::kNotLocalised;
+              if (a_holds != b_holds) return a_holds;
+              const double a_m = a.position_m.norm(), b_m = b.position_m.norm();
+              return a_m != b_m ? a_m < b_m : a.track_id < b.track_id;
+            });
+}
+
+}  // namespace plumb

@@ -1,0 +1,101 @@
+/// Every setting of plumb-objects; visit() is the one list of keys, ranges and meanings. Heights and
+/// what boxes are worth are in detections_config.hpp.
+#pragma once
+
+#include "modules/detections/detection.hpp"
+
+namespace plumb {
+
+/// Width and length-to-width ratio of a class before an object is seen.
+struct FootprintPrior {
+  double width_m = 0.0;
+  double width_std_m = 0.0;
+  double ratio = 0.0;
+  double ratio_std = 0.0;
+};
+
+struct ObjectsConfig {
+  FootprintPrior car{1.67, 0.12, 2.40, 0.22};
+  FootprintPrior van{1.90, 0.15, 2.60, 0.30};
+  FootprintPrior truck{2.50, 0.20, 3.50, 1.00};
+  FootprintPrior bus{2.60, 0.15, 4.20, 0.80};
+  FootprintPrior pedestrian{0.65, 0.12, 1.00, 0.25};
+  FootprintPrior cyclist{0.60, 0.10, 2.90, 0.30};
+  FootprintPrior unknown{1.50, 0.60, 1.80, 0.80};
+  double unknown_height_m = 1.60;
+  double unknown_height_std_m = 0.50;
+
+  double contact_inset_m = 0.20;
+  double accel_std_m_s2 = 2.5;
+  double relative_accel_std_m_s2 = 10.0;
+  double start_speed_std_m_s = 10.0;
+  double plane_error_time_s = 1.0;
+  double max_coast_s = 1.0;
+  double least_overlap_ratio = 0.3;
+
+  [[nodiscard]] const FootprintPrior& footprint(ObjectClass object_class) const {
+    switch (object_class) {
+      case ObjectClass::kCar:
+        return car;
+      case ObjectClass::kVan:
+        return van;
+      case ObjectClass::kTruck:
+        return truck;
+      case ObjectClass::kBus:
+        return bus;
+      case ObjectClass::kPedestrian:
+        return pedestrian;
+      case ObjectClass::kCyclist:
+        return cyclist;
+      case ObjectClass::kUnknown:
+        break;
+    }
+    return unknown;
+  }
+
+  template <typename Config, typename Visit>
+  static void visit(Config& c, Visit&& field) {
+    const auto footprint = [&field](const char* width, const char* width_std, const char* ratio,
+                                    const char* ratio_std, auto& prior) {
+      field(width, prior.width_m, 0.2, 4.0, "mean width of the class");
+      field(width_std, prior.width_std_m, 0.01, 2.0, "1-sigma of the width");
+      field(ratio, prior.ratio, 0.3, 10.0, "mean length over width");
+      field(ratio_std, prior.ratio_std, 0.01, 5.0, "1-sigma of length over width");
+    };
+    footprint("objects.car_width_m", "objects.car_width_std_m", "objects.car_length_ratio",
+              "objects.car_length_ratio_std", c.car);
+    footprint("objects.van_width_m", "objects.van_width_std_m", "objects.van_length_ratio",
+              "objects.van_length_ratio_std", c.van);
+    footprint("objects.truck_width_m", "objects.truck_width_std_m", "objects.truck_length_ratio",
+              "objects.truck_length_ratio_std", c.truck);
+    footprint("objects.bus_width_m", "objects.bus_width_std_m", "objects.bus_length_ratio",
+              "objects.bus_length_ratio_std", c.bus);
+    footprint("objects.pedestrian_width_m", "objects.pedestrian_width_std_m",
+              "objects.pedestrian_length_ratio", "objects.pedestrian_length_ratio_std",
+              c.pedestrian);
+    footprint("objects.cyclist_width_m", "objects.cyclist_width_std_m",
+              "objects.cyclist_length_ratio", "objects.cyclist_length_ratio_std", c.cyclist);
+    footprint("objects.unknown_width_m", "objects.unknown_width_std_m",
+              "objects.unknown_length_ratio", "objects.unknown_length_ratio_std", c.unknown);
+    field("objects.unknown_height_m", c.unknown_height_m, 0.5, 4.0,
+          "mean height of objects without a class");
+    field("objects.unknown_height_std_m", c.unknown_height_std_m, 0.02, 2.0,
+          "1-sigma of objects without a class");
+    field("objects.contact_inset_m", c.contact_inset_m, 0.0, 1.0,
+          "how far inside its outline a vehicle touches the road");
+    field("objects.accel_std_m_s2", c.accel_std_m_s2, 0.1, 20.0,
+          "1-sigma of an object's acceleration");
+    field("objects.relative_accel_std_m_s2", c.relative_accel_std_m_s2, 0.1, 50.0,
+          "the same, the camera's own turns included, while its motion is not known");
+    field("objects.start_speed_std_m_s", c.start_speed_std_m_s, 0.5, 60.0,
+          "1-sigma of the velocity of a new object");
+    field("objects.plane_error_time_s", c.plane_error_time_s, 0.05, 30.0,
+          "time over which an error of the plane keeps its value");
+    field("objects.max_coast_s", c.max_coast_s, 0.1, 5.0,
+          "a track that was not seen for longer ends");
+    field("objects.least_overlap_ratio", c.least_overlap_ratio, 0.05, 0.95,
+          "intersection over union that continues a track when the detector does not track");
+  }
+};
+
+}  // namespace plumb
