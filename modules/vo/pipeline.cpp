@@ -22,8 +22,8 @@ constexpr double kBadPx = 2.0;
 constexpr double kBadNewestPx = 3.0;
 constexpr double kSettledDepth = 0.02;  // deviation as a share of rho
 constexpr double kMinRefineParallaxPx = 0.3;
-constexpr int kKeyframeIterations = 4;
-constexpr int kFrameIterations = 2;
+constexpr int kKeyframeIterations = 3;
+constexpr int kFrameIterations = 1;
 // Errors of tracks on one structure are not independent: measured over the Hessian's promise.
 constexpr double kCovarianceInflation = 4.0;
 

@@ -20,6 +20,8 @@ constexpr float kRoadNcc = 0.9F;
 constexpr double kRoadBelowHorizonPx = 25.0;
 // Depth deviations, as a share of rho, up to which a prediction leans on them.
 constexpr double kUsableDepth = 0.5;
+// Up to here the host's patch checks a match better than the way back does.
+constexpr double kSettledDepth = 0.1;
 constexpr AlignLimits kAnchorLimits{};
 // A search on level l finds what is kReachPx 2^l away.
 constexpr int kReachPx = 4;
@@ -110,8 +112,10 @@ int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, 
       there = klt_search(from, start, to, guess.px, guess.scale, kRetryLevel);
     }
     if (!there.ok() || there.ncc < kMinSearchNcc || !inside(there.px.cast<double>())) continue;
-    const KltMatch back = klt_search(to, there.px, from, start, 1.0F / guess.scale, 0);
-    if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) continue;
+    if (track.rho_std >= kSettledDepth * track.rho) {
+      const KltMatch back = klt_search(to, there.px, from, start, 1.0F / guess.scale, 0);
+      if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) continue;
+    }
     found = 1;
     ++num_found;
     track.px = there.px.cast<double>();
