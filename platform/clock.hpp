@@ -27,4 +27,11 @@ namespace plumb {
   return static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
 }
 
+/// [us] processor time of this process so far, all threads: what work costs, however busy the machine is.
+[[nodiscard]] inline std::int64_t process_cpu_us() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<std::int64_t>(t.tv_sec) * 1'000'000 + t.tv_nsec / 1'000;
+}
+
 }  // namespace plumb

@@ -79,8 +79,16 @@ class Outputs {
   StatusCount statuses_;
 };
 
+/// What reading and processing the log took.
+struct Effort {
+  double wall_s = 0.0;
+  double cpu_s = 0.0;
+};
+
 /// Reads the log to its end, or to a stop signal.
-void run_log(LogReader* reader, Replay* replay) {
+Effort run_log(LogReader* reader, Replay* replay) {
+  const std::int64_t start_us = monotonic_us();
+  const std::int64_t start_cpu_us = process_cpu_us();
   Progress progress("replaying", "frames", reader->file_bytes());
   LogEvent event;
   while (!stop_requested() && reader->next(&event)) {
@@ -89,12 +97,17 @@ void run_log(LogReader* reader, Replay* replay) {
   }
   replay->finish();
   progress.finish(!stop_requested());
+  return {1e-6 * static_cast<double>(monotonic_us() - start_us),
+          1e-6 * static_cast<double>(process_cpu_us() - start_cpu_us)};
 }
 
 void print_summary(const Arguments& arguments, const Replay& replay, const Outputs& outputs,
-                   double frames_per_s) {
-  std::cout << format("%s: %lld frames, %.1f frames/s, one thread\n", arguments.log.c_str(),
-                      static_cast<long long>(replay.num_frames()), frames_per_s);
+                   const Effort& effort) {
+  const auto frames = static_cast<double>(std::max<std::int64_t>(replay.num_frames(), 1));
+  std::cout << format(
+      "%s: %lld frames, %.1f frames/s on one thread, %.1f ms of processor time each\n",
+      arguments.log.c_str(), static_cast<long long>(replay.num_frames()),
+      frames / std::max(effort.wall_s, 1e-6), 1e3 * effort.cpu_s / frames);
   if (replay.num_lost() > 0) {
     std::cout << format("  %lld frames are missing by their numbers\n",
                         static_cast<long long>(replay.num_lost()));
@@ -130,12 +143,9 @@ int run(const Arguments& arguments) {
   Replay replay(config, arguments.seed, outputs.can_sink(),
                 [&outputs](const FrameRecord& record) { outputs.add(record); });
   catch_stop_signals();
-  const std::int64_t start_us = monotonic_us();
-  run_log(&reader, &replay);
-  const auto passed_us = static_cast<double>(std::max<std::int64_t>(monotonic_us() - start_us, 1));
+  const Effort effort = run_log(&reader, &replay);
   outputs.close();
-  print_summary(arguments, replay, outputs,
-                1e6 * static_cast<double>(replay.num_frames()) / passed_us);
+  print_summary(arguments, replay, outputs, effort);
   std::cout.flush();
   return report_trouble(arguments.log, reader, replay) ? kExitBadInput : 0;
 }
