@@ -1,4 +1,4 @@
-/// A CAN interface through SocketCAN: sends, retries what the queue did not take, counts bus errors.
+/// A CAN interface through SocketCAN: sends, retries what the queue did not take, counts errors.
 ///
 /// The interface may be absent or down: it is tried again every second, and state() says why.
 /// Receives nothing but error frames. Never blocks and never throws.
@@ -32,7 +32,7 @@ class SocketCan final : public CanSink {
   static constexpr std::int64_t kMaxPendingUs = 50'000;  ///< an older frame is given up
   static constexpr std::int64_t kReopenUs = 1'000'000;
 
-  /// Socket for an interface, or -1 and one sentence why. Tests put their own in place of the kernel's.
+  /// Socket for an interface, or -1 and one sentence why. Tests bring their own.
   using Opener = int (*)(const std::string& interface, std::string* why);
   static int open_raw(const std::string& interface, std::string* why);
 

@@ -72,12 +72,13 @@ enum class ByteOrder : std::uint8_t { kIntel, kMotorola };
 
 /// One row of a message's table; `value` is null for the E2E fields, which e2e_protect() fills.
 struct Signal {
-  const char* name;
-  int start_bit;  ///< as in a DBC: least significant bit (Intel), most significant bit (Motorola)
-  int length;     ///< bits, at most 32
-  double factor;
-  double offset;
-  double CanValues::*value;
+  const char* name = "";
+  int start_bit =
+      0;           ///< as in a DBC: least significant bit (Intel), most significant bit (Motorola)
+  int length = 0;  ///< bits, at most 32
+  double factor = 1.0;
+  double offset = 0.0;
+  double CanValues::*value = nullptr;
   bool has_sna = true;
   ByteOrder order = ByteOrder::kIntel;
 };
@@ -93,11 +94,11 @@ struct Signal {
 
 /// One row of the send table.
 struct Message {
-  const char* name;
-  std::uint32_t id;
-  std::uint16_t data_id;  ///< AUTOSAR E2E
-  int cycle_ms;
-  bool per_frame;  ///< also sent between its cycles for every new camera frame
+  const char* name = "";
+  std::uint32_t id = 0;
+  std::uint16_t data_id = 0;  ///< AUTOSAR E2E
+  int cycle_ms = 0;
+  bool per_frame = false;  ///< also sent between its cycles for every new camera frame
   std::span<const Signal> signals;
 };
 

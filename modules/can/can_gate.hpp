@@ -32,8 +32,8 @@ enum class CanEgoStatus : std::int8_t {
 /// Same numbers as ground_plane_t.STATUS_* (asserted in can_wire.cpp).
 enum class CanPlaneStatus : std::int8_t { kOk = 0, kInitializing = 1, kHeld = 2, kInvalid = 3 };
 
-/// What a receiver may do with the values beside it. All ones, not available: nothing received, or too
-/// old.
+/// What a receiver may do with the values beside it. All ones, not available: nothing was received,
+/// or it is too old.
 enum class CanValidity : std::int8_t {
   kInvalid = 0,  ///< the source answers, but its values do not hold: they are sent as not available
   kDegraded = 1,  ///< predicted; the deviation says how far to trust it

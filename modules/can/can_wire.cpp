@@ -63,7 +63,7 @@ bool from_wire(const ego_motion_t& message, CanEgo* ego) {
   *ego = CanEgo{};
   ego->seq = message.seq;
   ego->status = static_cast<CanEgoStatus>(message.status);
-  ego->reason = message.reason;
+  ego->reason = static_cast<int>(message.reason);
   ego->reset_counter = message.reset_counter;
   if (ego->status == CanEgoStatus::kInitializing || ego->status == CanEgoStatus::kLost) return true;
   if (!motion_is_sound(message)) return false;
@@ -97,7 +97,7 @@ bool from_wire(const ground_plane_t& message, CanPlane* plane) {
   *plane = CanPlane{};
   plane->seq = message.seq;
   plane->status = static_cast<CanPlaneStatus>(message.status);
-  plane->reason = message.reason;
+  plane->reason = static_cast<int>(message.reason);
   for (int i = 0; i < message.num_cues; ++i) {
     if (message.cues[i].status == 0) plane->cues_used += 1 << i;
   }

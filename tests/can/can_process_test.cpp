@@ -1,4 +1,4 @@
-// plumb-can, seen from outside: what it refuses, and what it puts on the bus for what it hears on LCM.
+// plumb-can, seen from outside: what it refuses, and what it sends for what it hears on LCM.
 #include <gtest/gtest.h>
 
 #include <algorithm>

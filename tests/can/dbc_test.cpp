@@ -1,4 +1,4 @@
-// config/plumbline.dbc is what a receiver is built from: every statement in it is held against the code.
+// config/plumbline.dbc is what a receiver is built from: its statements are held against the code.
 #include <gtest/gtest.h>
 
 #include <set>

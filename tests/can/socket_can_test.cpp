@@ -1,5 +1,5 @@
-// A socket pair stands in for the interface: its peer reads what was sent, stops reading to make the
-// queue full, writes error frames and disappears. The real interface is tested in vcan/.
+// A socket pair stands in for the interface: its peer reads what was sent, stops reading to fill
+// the queue, writes error frames and disappears. The real interface is tested in vcan/.
 #include "platform/socket_can.hpp"
 
 #include <fcntl.h>
