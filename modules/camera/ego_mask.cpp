@@ -54,12 +54,15 @@ std::vector<int> chamfer(const std::vector<std::uint8_t>& covered, int width, in
   constexpr int kFar = std::numeric_limits<int>::max() / 2;
   std::vector<int> d(covered.size());
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = covered[i] != 0 ? 0 : kFar;
+  const auto index = [width](int u, int v) {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(u);
+  };
   const auto at = [&](int u, int v) {
-    return u < 0 || v < 0 || u >= width || v >= height ? kFar
-                                                       : d[static_cast<std::size_t>(v * width + u)];
+    return u < 0 || v < 0 || u >= width || v >= height ? kFar : d[index(u, v)];
   };
   const auto relax = [&](int u, int v, int s) {
-    int& here = d[static_cast<std::size_t>(v * width + u)];
+    int& here = d[index(u, v)];
     here = std::min(
         {here, at(u - s, v) + 3, at(u, v - s) + 3, at(u - s, v - s) + 4, at(u + s, v - s) + 4});
   };
