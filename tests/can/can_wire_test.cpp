@@ -184,6 +184,38 @@ TEST(CanWire, NumbersOutOfTheirRangeAreRefused) {
   refuses_plane([](ground_plane_t& m) { m.cov[1][1] = -1e-9; });
 }
 
+TEST(CanWire, TheEndsOfEveryRangeAreAccepted) {
+  CanEgo ego;
+  CanPlane plane;
+  for (const std::int8_t reason : {std::int8_t{0}, std::int8_t{14}}) {
+    ego_motion_t m = make_ego(0);
+    m.reason = reason;
+    EXPECT_TRUE(from_wire(m, &ego));
+    ground_plane_t p = make_plane(0);
+    p.reason = reason;
+    p.num_cues = 0;
+    EXPECT_TRUE(from_wire(p, &plane));
+    EXPECT_EQ(plane.cues_used, 0);
+  }
+}
+
+TEST(CanWire, NothingOfAnEarlierMessageIsLeft) {
+  CanEgo ego;
+  ASSERT_TRUE(from_wire(make_ego(), &ego));
+  ego_motion_t lost = make_ego(4);
+  lost.status = ego_motion_t::STATUS_LOST;
+  ASSERT_TRUE(from_wire(lost, &ego));
+  EXPECT_TRUE(std::isnan(ego.speed_m_s));
+  EXPECT_TRUE(std::isnan(ego.distance_m));
+
+  CanPlane plane;
+  ASSERT_TRUE(from_wire(make_plane(), &plane));
+  ground_plane_t invalid = make_plane(4);
+  invalid.status = ground_plane_t::STATUS_INVALID;
+  ASSERT_TRUE(from_wire(invalid, &plane));
+  EXPECT_TRUE(std::isnan(plane.height_m));
+}
+
 TEST(CanWire, FieldsThatDoNotHoldAreNeitherCheckedNorSent) {
   ego_motion_t m = make_ego();
   m.velocity_ground_m_s[0] = kNan;
@@ -258,6 +290,18 @@ TEST_F(VirtualClock, TicksEveryTenMillisecondsOfTheLogsTime) {
   output_.finish(sink_);
   EXPECT_EQ(output_.counters().num_frames, 11);
   EXPECT_EQ(sink_.newest().frame_counter, 10.0);
+}
+
+TEST_F(VirtualClock, KeepsItsGridWhenMessagesComeBetweenTicks) {
+  for (int i = 0; i < 30; ++i) play(i, 1'000'000 + i * 33'333);
+  std::int64_t last_us = 0;
+  for (const test::Sent& s : sink_.sent) {
+    if (s.frame.id != messages()[0].id) continue;
+    if (last_us != 0) {
+      EXPECT_EQ(s.time_us - last_us, CanGate::kTickUs);
+    }
+    last_us = s.time_us;
+  }
 }
 
 TEST_F(VirtualClock, FinishWithoutInputSendsNothing) {
