@@ -6,8 +6,8 @@
 namespace plumb::synth {
 namespace {
 
-constexpr double kAzimuthStep = 0.01;  // [rad]
-constexpr double kNearest = 0.8;       // [m]
+constexpr double kStep = 0.012;   ///< between columns, in tangents of the angle to the side
+constexpr double kNearest = 0.8;  // [m]
 constexpr double kRangeRatio = 1.035;
 constexpr double kFarthest = 420.0;  // [m]
 
@@ -16,22 +16,25 @@ constexpr double kFarthest = 420.0;  // [m]
 void GroundRays::build(const Terrain& terrain, const Eigen::Vector3d& origin, double yaw_rad,
                        double half_view_rad) {
   terrain_ = &terrain;
-  yaw_rad_ = yaw_rad;
-  first_azimuth_rad_ = -half_view_rad;
-  num_azimuths_ = static_cast<int>(2.0 * half_view_rad / kAzimuthStep) + 2;
+  c_ = std::cos(yaw_rad);
+  s_ = std::sin(yaw_rad);
+  half_width_ = std::tan(std::min(half_view_rad, 1.4));
+  num_columns_ = static_cast<int>(2.0 * half_width_ / kStep) + 2;
   ranges_m_.clear();
   for (double r = kNearest; r < kFarthest; r *= kRangeRatio) ranges_m_.push_back(r);
   const std::size_t n = ranges_m_.size();
-  steepest_.resize(static_cast<std::size_t>(num_azimuths_) * n);
-  for (int a = 0; a < num_azimuths_; ++a) {
-    const double yaw = yaw_rad_ + first_azimuth_rad_ + a * kAzimuthStep;
-    const double c = std::cos(yaw);
-    const double s = std::sin(yaw);
+  steepest_.resize(static_cast<std::size_t>(num_columns_) * n);
+  for (int a = 0; a < num_columns_; ++a) {
+    const double across = a * kStep - half_width_;
+    const double norm = 1.0 / std::sqrt(1.0 + across * across);
+    const double dx = (c_ - s_ * across) * norm;
+    const double dy = (s_ + c_ * across) * norm;
     float* row = steepest_.data() + static_cast<std::size_t>(a) * n;
     float highest = -1e9F;
     for (std::size_t k = 0; k < n; ++k) {
       const double r = ranges_m_[k];
-      const double rise = terrain.base_height(origin.x() + r * c, origin.y() + r * s) - origin.z();
+      const double rise =
+          terrain.base_height(origin.x() + r * dx, origin.y() + r * dy) - origin.z();
       highest = std::max(highest, static_cast<float>(rise / r));
       row[k] = highest;
     }
@@ -40,23 +43,18 @@ void GroundRays::build(const Terrain& terrain, const Eigen::Vector3d& origin, do
 
 bool GroundRays::intersect(const Ray& ray, GroundHit& hit) const {
   const Eigen::Vector3d& d = ray.direction;
-  const double run = std::hypot(d.x(), d.y());
-  if (run < 1e-9) return false;
-  double azimuth = std::atan2(d.y(), d.x()) - yaw_rad_;
-  azimuth = std::remainder(azimuth, 6.283185307179586);
-  const int a = std::clamp(static_cast<int>((azimuth - first_azimuth_rad_) / kAzimuthStep + 0.5), 0,
-                           num_azimuths_ - 1);
+  const double ahead = c_ * d.x() + s_ * d.y();
+  const double run = std::sqrt(d.x() * d.x() + d.y() * d.y());
+  if (ahead < 1e-6) return false;
+  const double across = (c_ * d.y() - s_ * d.x()) / ahead;
+  const int a =
+      std::clamp(static_cast<int>((across + half_width_) / kStep + 0.5), 0, num_columns_ - 1);
   const std::size_t n = ranges_m_.size();
   const float* row = steepest_.data() + static_cast<std::size_t>(a) * n;
   const auto slope = static_cast<float>(d.z() / run);
   const float* found = std::lower_bound(row, row + n, slope);
   if (found == row + n) return false;
   const auto k = static_cast<std::size_t>(found - row);
-
-  const auto gap = [&](double t) {  // height of the ray above the surface
-    return ray.origin.z() + t * d.z() -
-           terrain_->height(ray.origin.x() + t * d.x(), ray.origin.y() + t * d.y());
-  };
   double t0 = ranges_m_[k] / run;
   double t1 = k > 0 ? ranges_m_[k - 1] / run : 0.9 * t0;
   if (k > 0 && row[k] > row[k - 1]) {
@@ -64,21 +62,29 @@ bool GroundRays::intersect(const Ray& ray, GroundHit& hit) const {
     t0 = t1 + f * (t0 - t1);
     t1 = 0.99 * t0;
   }
-  double f0 = gap(t0);
-  double f1 = gap(t1);
-  for (int i = 0; i < 5 && std::abs(f0) > 1e-5 && f1 != f0; ++i) {  // secant
-    const double t2 = std::clamp(t0 - f0 * (t0 - t1) / (f0 - f1), 0.8 * t0, 1.25 * t0);
-    t1 = t0;
-    f1 = f0;
-    t0 = t2;
-    f0 = gap(t0);
+  double relief = 0.0;
+  const auto gap =
+      [&](double t) {  // height of the ray above the smooth land and the relief found so far
+        return ray.origin.z() + t * d.z() -
+               terrain_->base_height(ray.origin.x() + t * d.x(), ray.origin.y() + t * d.y()) -
+               relief;
+      };
+  const double g1 = gap(t1);
+  const double closing = std::max(1e-4, std::abs((gap(t0) - g1) / (t0 - t1)));
+  double g0 = 0.0;
+  for (int i = 0; i < 4; ++i) {  // Newton on the land with the relief of the last place
+    const double x = ray.origin.x() + t0 * d.x();
+    const double y = ray.origin.y() + t0 * d.y();
+    hit.edge_m = terrain_->edge_distance(x, y);
+    relief = terrain_->relief(x, y, hit.edge_m);
+    g0 = gap(t0);
+    if (std::abs(g0) < 2e-5) break;
+    t0 = std::clamp(t0 + g0 / closing, 0.8 * t0, 1.25 * t0);
   }
-  if (t0 <= 0.0 || t0 * run > kFarthest || std::abs(f0) > 0.02) return false;
+  if (t0 <= 0.0 || t0 * run > kFarthest || std::abs(g0) > 0.02) return false;
   hit.t = t0;
   hit.part = GroundPart::kRoad;
-  hit.edge_m = terrain_->edge_distance(ray.origin.x() + t0 * d.x(), ray.origin.y() + t0 * d.y());
-  const double closing = f1 != f0 ? std::abs((f0 - f1) / (t0 - t1)) : std::abs(d.z());
-  return resolve_kerb(ray, std::max(closing, 1e-3), hit);
+  return resolve_kerb(ray, closing, hit);
 }
 
 bool GroundRays::resolve_kerb(const Ray& ray, double closing, GroundHit& hit) const {

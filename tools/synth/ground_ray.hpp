@@ -33,9 +33,10 @@ class GroundRays {
   bool resolve_kerb(const Ray& ray, double closing, GroundHit& hit) const;
 
   const Terrain* terrain_ = nullptr;
-  double yaw_rad_ = 0.0;
-  double first_azimuth_rad_ = 0.0;
-  int num_azimuths_ = 0;
+  double c_ = 1.0;
+  double s_ = 0.0;
+  double half_width_ = 1.0;  ///< tangent of the widest angle
+  int num_columns_ = 0;
   std::vector<double> ranges_m_;
   std::vector<float>
       steepest_;  ///< running maximum of (height - eye) / range, per azimuth and range

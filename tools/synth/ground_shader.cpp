@@ -32,8 +32,8 @@ Reflectance GroundShader::shade(const Patch& patch, const GroundHit& hit) const 
   const double y = patch.p_map.y();
   const Footprint f = footprint(patch, Vector3d::UnitX(), Vector3d::UnitY());
   Here here{terrain_.road_coordinate(x, y), 0.1, 0.1, hit.edge_m};
-  const double c = std::cos(here.road.yaw_rad);
-  const double s = std::sin(here.road.yaw_rad);
+  const double c = here.road.along.x();
+  const double s = here.road.along.y();
   here.along_m = std::abs(c * f.axis_x_m + s * f.axis_y_m) + f.minor_m;
   here.across_m = std::abs(c * f.axis_y_m - s * f.axis_x_m) + f.minor_m;
 
@@ -65,7 +65,8 @@ Reflectance GroundShader::shade(const Patch& patch, const GroundHit& hit) const 
 double GroundShader::asphalt(const Patch& patch, const Footprint& f, const Here& here) const {
   const double x = patch.p_map.x();
   const double y = patch.p_map.y();
-  const double grain = static_cast<double>(textures_.grain.sample(x, y, f));
+  const double area = f.minor_m * (reach_x(f) + reach_y(f));
+  const double grain = area < 0.16 ? static_cast<double>(textures_.grain.sample(x, y, f)) : 0.0;
   const double fine = static_cast<double>(textures_.stains.sample(x, y, f));
   // A second, enlarged look at the same tile, turned, so that nothing repeats within sight.
   const double coarse = static_cast<double>(textures_.stains.sample(

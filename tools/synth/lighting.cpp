@@ -24,7 +24,7 @@ float Lighting::sky(const Eigen::Vector3d& direction, double pixel_rad) const {
       static_cast<double>(textures_.volume.sample(azimuth * 160.0 + 900.0, up * 260.0 + 50.0, 2.5));
   const double wood_tone = 0.10 + 0.10 * bark;
 
-  const double clear = 0.75 + 0.35 * std::exp(-5.0 * std::max(0.0, up));
+  const double clear = config_.sky_tone * (0.8 + 0.4 * std::exp(-6.0 * std::max(0.0, up)));
   double tone = clear;
   if (config_.clouds > 0.0) {
     const double height = 1.0 / std::max(0.06, up + 0.05);
@@ -35,10 +35,11 @@ float Lighting::sky(const Eigen::Vector3d& direction, double pixel_rad) const {
     };
     const double cover = 0.6 * noise(0.7) + 0.3 * noise(1.7) + 0.1 * noise(4.3);
     const double cloud = std::clamp((cover - 0.75 + 0.5 * config_.clouds) * 3.5, 0.0, 1.0);
-    tone += cloud * (1.25 - tone);
+    tone += cloud * (1.0 + 0.3 * cover - tone);
   }
-  const double glare = std::max(0.0, direction.dot(to_sun_));
-  if (config_.sun > 0.0) tone += 0.5 * std::pow(glare, 12.0) + 60.0 * std::pow(glare, 4000.0);
+  const double glare = direction.dot(to_sun_);
+  if (config_.sun > 0.0 && glare > 0.7)
+    tone += 0.5 * std::pow(glare, 12.0) + (glare > 0.99 ? 60.0 * std::pow(glare, 4000.0) : 0.0);
   const double lit = std::max(0.15, config_.sky / 0.55);
   return static_cast<float>(lit * (tone + woods * (wood_tone - tone)));
 }
@@ -54,7 +55,8 @@ float Lighting::answer(const Reflectance& surface, const Eigen::Vector3d& view,
   if (surface.gloss > 0.0F) {
     const double against = -view.dot(surface.n_map);
     const Eigen::Vector3d mirrored = view + 2.0 * against * surface.n_map;
-    const double fresnel = 0.04 + 0.96 * std::pow(1.0 - std::clamp(against, 0.0, 1.0), 5.0);
+    const double grazing = 1.0 - std::clamp(against, 0.0, 1.0);
+    const double fresnel = 0.04 + 0.96 * grazing * grazing * grazing * grazing * grazing;
     // A smooth stand-in for the surroundings: bright sky above, houses near the horizon, dark road below.
     const double up = mirrored.z();
     const double seen = up > 0.12 ? 0.75 + 0.4 * (1.0 - up) : up > 0.0 ? 0.3 + 3.7 * up : 0.15;

@@ -14,6 +14,7 @@ struct LightConfig {
   double sun_elevation_rad = 0.65;
   double sun = 2.1;       ///< strength of direct light; 0 = overcast
   double sky = 0.55;      ///< strength of the sky's light
+  double sky_tone = 0.8;  ///< brightness of what is seen of the sky
   double clouds = 0.4;    ///< 0 clear .. 1 covered
   double haze_m = 900.0;  ///< distance over which contrast falls to 1/e
 };

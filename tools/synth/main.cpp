@@ -3,8 +3,11 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "tools/synth/options.hpp"
+#include "tools/synth/stats.hpp"
 #include "tools/synth/writer.hpp"
 
 namespace {
@@ -16,6 +19,13 @@ void on_signal(int /*signal*/) { g_stop = true; }
 void list_routes() {
   for (const auto& [name, text] : plumb::synth::builtin_routes())
     std::printf("%-12s %s\n", name.c_str(), text.c_str());
+}
+
+int print_stats(const std::vector<std::string>& folders) {
+  std::vector<plumb::synth::DriveStats> drives;
+  for (const std::string& folder : folders) drives.push_back(plumb::synth::measure_drive(folder));
+  std::fputs(plumb::synth::stats_table(drives).c_str(), stdout);
+  return 0;
 }
 
 int render(plumb::synth::Options& options) {
@@ -47,13 +57,17 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PLUMB_VERSION);
   app.add_flag("--list-routes", list, "name the built-in routes and exit");
   plumb::synth::declare(app, options);
+  std::vector<std::string> folders;
+  CLI::App* stats = app.add_subcommand(
+      "stats", "how drives look to an estimator: a table for comparing rendered with real ones");
+  stats->add_option("DIR", folders, "folders in KITTI odometry layout")->required();
   try {
     app.parse(argc, argv);
     if (list) {
       list_routes();
       return 0;
     }
-    return render(options);
+    return stats->parsed() ? print_stats(folders) : render(options);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     std::fprintf(stderr, "plumb-synth: %s\n", error.what());

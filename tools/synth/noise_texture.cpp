@@ -9,7 +9,7 @@ namespace plumb::synth {
 namespace {
 
 constexpr float kUnit = 1.0F / 4096.0F;  ///< value of one count of a stored texel
-constexpr int kMaxTaps = 8;
+constexpr int kMaxTaps = 6;
 
 double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
 
@@ -86,14 +86,14 @@ NoiseTexture::NoiseTexture(int log2_size, double texel_m, const std::vector<doub
   }
 }
 
-float NoiseTexture::bilinear(const Level& level, double x_texel, double y_texel) const {
+inline float NoiseTexture::bilinear(const Level& level, double x_texel, double y_texel) const {
   const double xf = std::floor(x_texel);
   const double yf = std::floor(y_texel);
   const auto fx = static_cast<float>(x_texel - xf);
   const auto fy = static_cast<float>(y_texel - yf);
   const unsigned mask = (1U << level.log2_size) - 1U;
-  const auto x0 = static_cast<unsigned>(static_cast<std::int64_t>(xf)) & mask;
-  const auto y0 = (static_cast<unsigned>(static_cast<std::int64_t>(yf)) & mask) << level.log2_size;
+  const auto x0 = static_cast<unsigned>(static_cast<int>(xf)) & mask;
+  const auto y0 = (static_cast<unsigned>(static_cast<int>(yf)) & mask) << level.log2_size;
   const unsigned x1 = (x0 + 1U) & mask;
   const unsigned y1 = (y0 + (1U << level.log2_size)) & ((1U << (2 * level.log2_size)) - 1U);
   const std::int16_t* t = level.texels.data();
@@ -107,29 +107,34 @@ float NoiseTexture::bilinear(const Level& level, double x_texel, double y_texel)
 }
 
 float NoiseTexture::sample(double x_m, double y_m, const Footprint& pixel) const {
-  const double ax = pixel.axis_x_m / texel_m_;
-  const double ay = pixel.axis_y_m / texel_m_;
+  const double to_texels = 1.0 / texel_m_;
+  const double ax = pixel.axis_x_m * to_texels;
+  const double ay = pixel.axis_y_m * to_texels;
   const double major = std::sqrt(ax * ax + ay * ay);
-  const double minor = std::max({pixel.minor_m / texel_m_, major / kMaxTaps, 1.0});
-  const double lod = std::log2(minor);
-  const auto last = static_cast<double>(levels_.size() - 1);
-  if (lod >= last) return 0.0F;
-  const auto level = static_cast<std::size_t>(lod);
-  const auto blend = static_cast<float>(lod - static_cast<double>(level));
-  const int taps = std::clamp(static_cast<int>(std::ceil(major / minor)), 1, kMaxTaps);
+  const double minor = std::max({pixel.minor_m * to_texels, major / kMaxTaps, 1.0});
+  int exponent = 0;
+  const double mantissa =
+      std::frexp(minor, &exponent);  // minor = mantissa 2^exponent, mantissa in [0.5, 1)
+  const auto level = static_cast<std::size_t>(exponent - 1);
+  if (level + 1 >= levels_.size()) return 0.0F;
+  const auto blend = static_cast<float>(2.0 * mantissa - 1.0);
+  const int taps = std::max(1, static_cast<int>(major / minor + 0.99));
   const double scale = 1.0 / static_cast<double>(1U << level);
-  const double x = x_m / texel_m_;
-  const double y = y_m / texel_m_;
-  float sum = 0.0F;
-  for (int i = 0; i < taps; ++i) {
-    const double along = (i + 0.5) / taps - 0.5;
-    const double tx = (x + ax * along) * scale - 0.5;
-    const double ty = (y + ay * along) * scale - 0.5;
-    const float fine = bilinear(levels_[level], tx, ty);
-    const float coarse = bilinear(levels_[level + 1], 0.5 * tx - 0.25, 0.5 * ty - 0.25);
-    sum += fine + (coarse - fine) * blend;
-  }
-  return sum / static_cast<float>(taps);
+  const double x = x_m * to_texels * scale;
+  const double y = y_m * to_texels * scale;
+  const auto average = [&](std::size_t at, int count, double shrink) {
+    const double step_x = ax * scale * shrink / count;
+    const double step_y = ay * scale * shrink / count;
+    double tx = x * shrink - 0.5 - 0.5 * step_x * (count - 1);
+    double ty = y * shrink - 0.5 - 0.5 * step_y * (count - 1);
+    float sum = 0.0F;
+    for (int i = 0; i < count; ++i, tx += step_x, ty += step_y)
+      sum += bilinear(levels_[at], tx, ty);
+    return sum / static_cast<float>(count);
+  };
+  const float fine = average(level, taps, 1.0);
+  const float coarse = average(level + 1, (taps + 1) / 2, 0.5);
+  return fine + (coarse - fine) * blend;
 }
 
 float NoiseTexture::sample(double x_m, double y_m, double width_m) const {

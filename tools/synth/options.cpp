@@ -209,6 +209,8 @@ void complete(Options& o) {
       kDegree *
       (o.sun_azimuth_deg >= 0.0 || o.sun_azimuth_deg < -1.0 ? o.sun_azimuth_deg : drawn_azimuth);
   c.light.sun_elevation_rad = kDegree * o.sun_deg;
+  c.light.sky_tone = random.uniform(0.4, 1.0);
+  c.light.clouds = random.uniform(0.0, 0.7);
   if (o.overcast) {
     c.light.sun = 0.0;
     c.light.sky = 1.3;

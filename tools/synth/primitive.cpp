@@ -1,6 +1,7 @@
 #include "tools/synth/primitive.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plumb::synth {
@@ -86,28 +87,40 @@ bool fence_is_open(const Vector3d& p, double footprint_m) {
   return !rail && phase > 0.55;
 }
 
+/// Nested shells fixed in the solid, sparse outside and dense inside: ragged from every side, the same from all.
+struct Shell {
+  double radius;
+  float bias;
+};
+constexpr std::array<Shell, 3> kShells{{{1.0, -0.24F}, {0.8, -0.03F}, {0.58, 0.28F}}};
+
 bool intersect_leaves(const Primitive& s, const Vector3d& o, const Vector3d& d, double pixel_rad,
                       const VolumeNoise& noise, Hit& hit) {
   const Vector3d os = o.cwiseQuotient(s.half);
   const Vector3d ds = d.cwiseQuotient(s.half);
   const double a = ds.squaredNorm();
   const double b = os.dot(ds);
-  for (const double shell : {1.0, 0.82, 0.6}) {
-    const double disc = b * b - a * (os.squaredNorm() - shell * shell);
+  const double c = os.squaredNorm();
+  const auto try_shell = [&](std::size_t k, double sign) {
+    const double disc = b * b - a * (c - kShells[k].radius * kShells[k].radius);
     if (disc <= 0.0) return false;
-    const double root = std::sqrt(disc);
-    for (const double t : {(-b - root) / a, (-b + root) / a}) {
-      if (t <= 0.05 || t >= hit.t) continue;
-      const bool inside = t > -b / a;
-      if (inside && shell > 0.99) continue;  // the far outer shell is hidden by the inner ones
-      const Vector3d p = o + t * d;
-      if (leaf_density(s, p, t * pixel_rad, noise) < (inside ? 0.1F : 0.0F)) continue;
-      hit.t = t;
-      hit.face = shell > 0.99 ? 0 : 1;
-      hit.p_local = p;
-      hit.n_local = p.cwiseQuotient(s.half.cwiseProduct(s.half)).normalized();
-      return true;
-    }
+    const double t = (-b + sign * std::sqrt(disc)) / a;
+    if (t <= 0.05 || t >= hit.t) return false;
+    const Vector3d p = o + t * d;
+    if (leaf_density(s, p, t * pixel_rad, noise) + kShells[k].bias < 0.0F) return false;
+    hit.t = t;
+    hit.face = static_cast<int>(k);
+    hit.p_local = p;
+    hit.n_local = p.cwiseQuotient(s.half.cwiseProduct(s.half)).normalized();
+    return true;
+  };
+  if (b * b - a * (c - 1.0) <= 0.0) return false;
+  for (std::size_t k = 0; k < kShells.size(); ++k) {
+    if (try_shell(k, -1.0)) return true;
+  }
+  for (std::size_t k = kShells.size();
+       k-- > 1;) {  // the far outer shell is hidden by its own sparseness
+    if (try_shell(k, 1.0)) return true;
   }
   return false;
 }
@@ -117,12 +130,12 @@ bool intersect_leaves(const Primitive& s, const Vector3d& o, const Vector3d& d, 
 float leaf_density(const Primitive& s, const Vector3d& p, double footprint_m,
                    const VolumeNoise& noise) {
   const double offset = 0.37 * static_cast<double>(s.seed % 1009U);
-  const float coarse = noise.sample(p.x() * 1.7 + offset, p.y() * 1.7, p.z() * 1.9);
-  float density = 1.3F * (coarse - 0.5F) + 0.10F;
-  if (footprint_m < 0.2) {
-    const float fine = noise.sample(p.x() * 6.1, p.y() * 6.1 + offset, p.z() * 6.7);
-    const float fade = static_cast<float>(std::clamp(2.0 - footprint_m * 10.0, 0.0, 1.0));
-    density += fade * 1.1F * (fine - 0.5F);
+  const float coarse = noise.sample(p.x() * 2.3 + offset, p.y() * 2.3, p.z() * 2.6);
+  float density = 1.0F * (coarse - 0.5F) + 0.10F;
+  if (footprint_m < 0.16) {
+    const float fine = noise.sample(p.x() * 8.9, p.y() * 8.9 + offset, p.z() * 9.7);
+    const float fade = static_cast<float>(std::clamp(2.0 - footprint_m * 12.5, 0.0, 1.0));
+    density += fade * 1.5F * (fine - 0.5F);
   }
   return density;
 }

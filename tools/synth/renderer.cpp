@@ -223,6 +223,12 @@ FrameRenderer::Sample FrameRenderer::shade_ground(const Ray& ray, const GroundHi
   return out;
 }
 
+Vector3d FrameRenderer::direction(double u, double v) const {
+  const CameraModel& camera = config_.camera;
+  if (camera.residual_k1 != 0.0) return camera.unproject({u, v});
+  return {(u - camera.cx_px) / camera.fx_px, (v - camera.cy_px) / camera.fy_px, 1.0};
+}
+
 FrameRenderer::Sample FrameRenderer::trace(double u, double v, int slot,
                                            const std::vector<Candidate>& tile) const {
   const int row = std::clamp(static_cast<int>(std::lround(v)), 0, config_.camera.height_px - 1);
@@ -230,7 +236,7 @@ FrameRenderer::Sample FrameRenderer::trace(double u, double v, int slot,
   const double since_s =
       slot_time_s_[static_cast<std::size_t>((config_.readout_s > 0.0 ? row : 0) * kSlots + slot)] -
       time_s_;
-  const Ray ray{T_map_cam.t, (T_map_cam.R * config_.camera.unproject({u, v})).normalized()};
+  const Ray ray{T_map_cam.t, (T_map_cam.R * direction(u, v)).normalized()};
   Hit hit;
   for (const Candidate& candidate : tile) {
     if (static_cast<double>(candidate.nearest_m) > hit.t) break;
@@ -302,7 +308,7 @@ int FrameRenderer::samples_wanted(int u, int v) const {
     const Sample& other = samples_[static_cast<std::size_t>(nv * width + nu)];
     const float contrast = std::abs(other.radiance - here.radiance) /
                            (std::max(other.radiance, here.radiance) + 0.02F);
-    edge = edge || contrast > (other.key != here.key ? 0.06F : 0.22F);
+    edge = edge || contrast > (other.key != here.key ? 0.08F : 0.3F);
   };
   compare(u - 1, v);
   compare(u + 1, v);
@@ -320,7 +326,8 @@ void FrameRenderer::refine(RenderedFrame& out) {
       const auto& tile = tiles_[static_cast<std::size_t>((v / kTile) * tiles_x_ + u / kTile)];
       const std::size_t k = static_cast<std::size_t>(v * width + u);
       const std::uint64_t turn = hash_keys(static_cast<std::uint64_t>(k), 0xaa);
-      float sum = 0.0F;
+      const bool still = count <= config_.edge_samples;  // then the first sample counts as well
+      float sum = still ? out.radiance[k] : 0.0F;
       for (int i = 0; i < count;
            ++i) {  // a rank-1 lattice, shifted per pixel; each sample at its own time
         const double x = std::fmod(uniform_of(turn) + (i + 0.5) / count, 1.0) - 0.5;
@@ -328,7 +335,7 @@ void FrameRenderer::refine(RenderedFrame& out) {
         const int slot = static_cast<int>((i + 0.5) * kSlots / count);
         sum += trace(std::clamp(u + x, -0.5, width - 0.5), v + y, slot, tile).radiance;
       }
-      out.radiance[k] = sum / static_cast<float>(count);
+      out.radiance[k] = sum / static_cast<float>(still ? count + 1 : count);
     }
   }
 }

@@ -23,7 +23,7 @@ struct RenderConfig {
   CameraModel camera;
   double exposure_s = 0.002;
   double readout_s = 0.0;  ///< first to last row; 0 = global shutter
-  int edge_samples = 4;    ///< extra samples where the picture changes
+  int edge_samples = 3;    ///< extra samples where the picture changes
   bool plain = false;      ///< test pictures: no shadows, no haze
 };
 
@@ -79,6 +79,7 @@ class FrameRenderer {
                     Eigen::Vector2d& high) const;
   [[nodiscard]] double row_time_s(double time_s, int v) const;
   [[nodiscard]] const Se3& pose_at(int v, int slot) const;
+  [[nodiscard]] Eigen::Vector3d direction(double u, double v) const;
   [[nodiscard]] Sample trace(double u, double v, int slot,
                              const std::vector<Candidate>& tile) const;
   [[nodiscard]] Sample shade_solid(const Ray& ray, const Hit& hit) const;

@@ -19,6 +19,7 @@ void derive_heading(std::vector<RoutePoint>& points) {
     const Eigen::Vector2d& a = points[i > 0 ? i - 1 : 0].p_map;
     const Eigen::Vector2d& b = points[std::min(i + 1, n - 1)].p_map;
     points[i].yaw_rad = std::atan2(b.y() - a.y(), b.x() - a.x());
+    points[i].along = (b - a).normalized();
   }
   for (std::size_t i = 1; i + 1 < n; ++i) {
     points[i].curvature =
@@ -80,7 +81,7 @@ RoutePoint Route::at(double s_m) const {
 }
 
 void smooth_samples(std::vector<double>& values, double sigma_samples) {
-  if (sigma_samples <= 0.0 || values.empty()) return;
+  if (sigma_samples <= 0.0 || values.size() < 2) return;
   const int radius = static_cast<int>(std::ceil(3.0 * sigma_samples));
   std::vector<double> kernel;
   double total = 0.0;
@@ -88,14 +89,19 @@ void smooth_samples(std::vector<double>& values, double sigma_samples) {
     kernel.push_back(std::exp(-0.5 * k * k / (sigma_samples * sigma_samples)));
     total += kernel.back();
   }
-  const std::vector<double> in = values;
-  const int n = static_cast<int>(in.size());
+  const int n = static_cast<int>(values.size());
+  const auto value = [&](int i) {  // mirrored through the end points: a steady slope stays one
+    if (i < 0) return 2.0 * values.front() - values[static_cast<std::size_t>(std::min(-i, n - 1))];
+    if (i >= n)
+      return 2.0 * values.back() - values[static_cast<std::size_t>(std::max(2 * (n - 1) - i, 0))];
+    return values[static_cast<std::size_t>(i)];
+  };
+  std::vector<double> padded;
+  for (int i = -radius; i < n + radius; ++i) padded.push_back(value(i));
   for (int i = 0; i < n; ++i) {
     double sum = 0.0;
-    for (int k = -radius; k <= radius; ++k) {
-      sum += kernel[static_cast<std::size_t>(k + radius)] *
-             in[static_cast<std::size_t>(std::clamp(i + k, 0, n - 1))];
-    }
+    for (std::size_t k = 0; k < kernel.size(); ++k)
+      sum += kernel[k] * padded[static_cast<std::size_t>(i) + k];
     values[static_cast<std::size_t>(i)] = sum / total;
   }
 }

@@ -19,13 +19,13 @@ struct Setting {
   double kerb_m = 0.12;         ///< height of the kerb; 0 = flush shoulder
   double sidewalk_m = 2.2;      ///< paved width beside the road
   double setback_m = 5.0;       ///< nearest wall to the road edge
-  double house_ratio = 0.75;    ///< share of plots with a house
-  double tree_ratio = 0.25;     ///< share of tree places taken
+  double house_ratio = 0.85;    ///< share of plots with a house
+  double tree_ratio = 0.4;      ///< share of tree places taken
   double parked_ratio = 0.35;   ///< share of parking places taken
   double dash_offset_m = 1.75;  ///< lane line to the left of the lane's centre; 0 = none
   double side_road_m = 90.0;    ///< mean distance between side roads; 0 = none
   double hill_m = 1.5;          ///< amplitude of the terrain
-  double roughness = 1.0;       ///< 1 = ISO 8608 class A-B
+  double roughness = 1.0;       ///< 1 = a used road, about ISO 8608 class B
   bool edge_lines = false;
   bool guard_rail = false;
 };
@@ -34,7 +34,8 @@ struct RoutePoint {
   Eigen::Vector2d p_map = Eigen::Vector2d::Zero();
   double z_m = 0.0;
   double yaw_rad = 0.0;
-  double curvature = 0.0;  ///< [1/m], left positive
+  double curvature = 0.0;                            ///< [1/m], left positive
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< unit vector of the heading
 };
 
 /// A road that joins but is not driven: a straight band.
@@ -96,7 +97,7 @@ void extend(Route& route, double before_m, double after_m);
 /// Side roads at random places, never where they would run along the route.
 void add_side_roads(Route& route, std::uint64_t seed);
 
-/// Gaussian smoothing in place, ends repeated.
+/// Gaussian smoothing in place; the ends stay where they are and steady slopes stay steady.
 void smooth_samples(std::vector<double>& values, double sigma_samples);
 
 }  // namespace plumb::synth

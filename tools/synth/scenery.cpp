@@ -132,9 +132,13 @@ class Gardener {
       const Place place = beside(s + half, side, setting_.sidewalk_m + random_.uniform(0.4, 0.7));
       const double pick = random_.uniform();
       s += 2.0 * half + (random_.chance(0.3) ? random_.uniform(2.0, 6.0) : 0.05);
-      if (pick > 0.8 || !clear_of_road(place, half, 0.4, setting_.sidewalk_m - 0.4) ||
+      if (!clear_of_road(place, half, 0.4, setting_.sidewalk_m - 0.4) ||
           !free_of_houses(place.p, 0.5))
         continue;
+      if (pick > 0.75) {
+        plant_bushes(place, half);
+        continue;
+      }
       const Material material = pick < 0.35  ? Material::kHedge
                                 : pick < 0.6 ? Material::kBrick
                                              : Material::kFence;
@@ -145,9 +149,23 @@ class Gardener {
                                                               : 0.03;
       Primitive border = solid(Shape::kBox, material, place.p, place.yaw_rad,
                                {half, thickness, 0.5 * height + 0.2}, -0.4 + setting_.kerb_m);
-      border.albedo =
-          static_cast<float>(material == Material::kHedge ? 0.07 : random_.uniform(0.12, 0.5));
+      border.albedo = static_cast<float>(material == Material::kHedge ? random_.uniform(0.08, 0.13)
+                                                                      : random_.uniform(0.12, 0.5));
+      border.R_map_local = stand_on(terrain_, place.p, place.yaw_rad).R;
       still_.push_back(border);
+    }
+  }
+
+  void plant_bushes(const Place& place, double half_m) {
+    const Vector2d along(std::cos(place.yaw_rad), std::sin(place.yaw_rad));
+    for (double x = -half_m; x < half_m; x += random_.uniform(0.7, 2.2)) {
+      const double wide = random_.uniform(0.35, 1.0);
+      const Vector2d p = place.p + x * along;
+      if (terrain_.edge_distance(p.x(), p.y()) < wide + 0.3) continue;
+      Primitive bush = solid(Shape::kLeaves, Material::kLeaves, p, random_.uniform(0.0, 6.28),
+                             {wide, wide * 0.9, wide * random_.uniform(0.7, 1.3)}, -0.25);
+      bush.albedo = static_cast<float>(random_.uniform(0.07, 0.16));
+      still_.push_back(bush);
     }
   }
 
@@ -161,14 +179,14 @@ class Gardener {
     still_.push_back(stem);
     const bool conifer = random_.chance(0.2);
     const double crown = 0.5 * (height_m - trunk);
-    const int clumps = conifer ? 3 : 3 + random_.below(3);
+    const int clumps = conifer ? 3 : 5 + random_.below(4);
     for (int i = 0; i < clumps; ++i) {
       const double up =
-          conifer ? trunk + crown * (0.3 + 0.6 * i) : trunk + crown * random_.uniform(0.45, 1.35);
-      const double wide = conifer ? crown * (0.62 - 0.17 * i) : crown * random_.uniform(0.55, 0.85);
+          conifer ? trunk + crown * (0.3 + 0.6 * i) : trunk + crown * random_.uniform(0.35, 1.55);
+      const double wide = conifer ? crown * (0.62 - 0.17 * i) : crown * random_.uniform(0.38, 0.68);
       const double tall = conifer ? crown * 0.6 : wide * random_.uniform(0.7, 1.0);
       const double turn = random_.uniform(0.0, 6.28);
-      const double out = conifer ? 0.0 : crown * random_.uniform(0.1, 0.55);
+      const double out = conifer ? 0.0 : crown * random_.uniform(0.1, 0.75);
       Primitive leaves = solid(Shape::kLeaves, Material::kLeaves,
                                p + out * Vector2d(std::cos(turn), std::sin(turn)), turn,
                                {wide, wide * 0.95, tall}, up - tall);
@@ -225,7 +243,8 @@ class Gardener {
       if (terrain_.edge_distance(place.p.x(), place.p.y()) < 0.5) continue;
       Primitive rail =
           solid(Shape::kBox, Material::kMetal, place.p, place.yaw_rad, {2.02, 0.04, 0.15}, 0.45);
-      rail.albedo = 0.4F;
+      rail.albedo = 0.3F;
+      rail.R_map_local = stand_on(terrain_, place.p, place.yaw_rad).R;
       still_.push_back(rail);
       Primitive post =
           solid(Shape::kBox, Material::kMetal, place.p, place.yaw_rad, {0.05, 0.06, 0.35}, -0.1);

@@ -11,8 +11,8 @@ namespace plumb::synth {
 struct SensorConfig {
   double blur_px = 0.55;      ///< sigma of the lens' point spread
   double gain = 300.0;        ///< grey levels per unit of radiance
-  double read_noise = 1.0;    ///< grey levels
-  double shot_noise = 0.018;  ///< variance per grey level
+  double read_noise = 0.8;    ///< grey levels
+  double shot_noise = 0.008;  ///< variance per grey level
   double vignetting = 0.12;   ///< loss of light in the corners
   double gain_drift =
       0.03;  ///< slow wandering of the exposure, standard deviation of its logarithm

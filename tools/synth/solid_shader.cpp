@@ -189,7 +189,7 @@ void SolidShader::leaves(const Primitive& solid, const Hit& hit, const Patch& pa
   double tone = 0.7 * octave(2.3) * fade(0.6);
   if (patch.width_m < 0.2) tone += 1.1 * octave(7.9) * fade(0.2);
   if (patch.width_m < 0.09) tone += 1.0 * octave(19.0) * fade(0.09);
-  const double depth = hit.face == 0 ? 1.0 : 0.55;
+  const double depth = hit.face == 0 ? 1.0 : hit.face == 1 ? 0.72 : 0.45;
   scale(out, depth * std::max(0.15, 1.0 + 1.5 * tone));
   out.openness = static_cast<float>(depth);
   // Leaves face everywhere: bend the normal by the noise, or crowns look like balls.

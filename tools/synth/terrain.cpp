@@ -175,21 +175,29 @@ double Terrain::base_height(double x, double y) const {
 double Terrain::edge_distance(double x, double y) const {
   const double gx = (x - origin_.x()) / kEdgeCell;
   const double gy = (y - origin_.y()) / kEdgeCell;
+  if (gx < 0.0 || gy < 0.0) return static_cast<double>(kFar);
   const int ix = static_cast<int>(gx);
   const int iy = static_cast<int>(gy);
-  const std::array<const Cell*, 4> c{find_cell(ix, iy), find_cell(ix + 1, iy),
-                                     find_cell(ix, iy + 1), find_cell(ix + 1, iy + 1)};
-  const double fx = gx - ix;
-  const double fy = gy - iy;
+  static constexpr Cell kNone{};
+  std::array<const Cell*, 4> c{};
+  c[0] = find_cell(ix, iy);
+  if (ix % kBlock != kBlock - 1 && iy % kBlock != kBlock - 1) {  // all four in one block
+    if (c[0] == nullptr) return static_cast<double>(kFar);
+    c = {c[0], c[0] + 1, c[0] + kBlock, c[0] + kBlock + 1};
+  } else {
+    c = {c[0], find_cell(ix + 1, iy), find_cell(ix, iy + 1), find_cell(ix + 1, iy + 1)};
+    for (const Cell*& cell : c) cell = cell != nullptr ? cell : &kNone;
+  }
+  const auto fx = static_cast<float>(gx - ix);
+  const auto fy = static_cast<float>(gy - iy);
   const auto mixed = [&](float Cell::*field) {
-    const auto value = [&](std::size_t k) {
-      return c[k] != nullptr ? static_cast<double>(c[k]->*field) : static_cast<double>(kFar);
-    };
-    const double low = value(0) + fx * (value(1) - value(0));
-    const double high = value(2) + fx * (value(3) - value(2));
-    return low + fy * (high - low);
+    const float low = c[0]->*field + fx * (c[1]->*field - c[0]->*field);
+    const float high = c[2]->*field + fx * (c[3]->*field - c[2]->*field);
+    return static_cast<double>(low + fy * (high - low));
   };
-  return round_min(mixed(&Cell::edge_main), mixed(&Cell::edge_side));
+  const double main = mixed(&Cell::edge_main);
+  const double side = mixed(&Cell::edge_side);
+  return side - main < kCornerRound ? round_min(main, side) : main;
 }
 
 RoadCoordinate Terrain::road_coordinate(double x, double y) const {
@@ -200,13 +208,13 @@ RoadCoordinate Terrain::road_coordinate(double x, double y) const {
   RoadCoordinate out;
   for (int round = 0; round < 2; ++round) {
     const RoutePoint& p = route_->points[i];
-    const double c = std::cos(p.yaw_rad);
-    const double s = std::sin(p.yaw_rad);
+    const double c = p.along.x();
+    const double s = p.along.y();
     const double dx = x - p.p_map.x();
     const double dy = y - p.p_map.y();
     const double d = c * dy - s * dx;
     const double along = (c * dx + s * dy) / std::max(0.2, 1.0 - p.curvature * d);
-    out = {true, static_cast<double>(i) * Route::kStep + along, d, p.yaw_rad};
+    out = {true, static_cast<double>(i) * Route::kStep + along, d, p.along};
     const auto moved =
         static_cast<std::ptrdiff_t>(i) + std::lround(std::clamp(along, -2.0, 2.0) / Route::kStep);
     i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
@@ -225,6 +233,14 @@ double Terrain::bump_height(double x, double y) const {
     sum += bump.height_m * 0.5 * (1.0 + std::cos(3.14159265358979 * along));
   }
   return sum;
+}
+
+double Terrain::relief(double x, double y, double edge_m) const {
+  if (route_->flat) return 0.0;
+  const double half_width = 0.5 * (route_->setting.left_m + route_->setting.right_m);
+  const double inward = std::clamp(-edge_m / half_width, 0.0, 1.0);
+  return kCrown * (1.0 - (1.0 - inward) * (1.0 - inward)) +
+         (bumps_.empty() ? 0.0 : bump_height(x, y));
 }
 
 double Terrain::height(double x, double y) const {

@@ -15,9 +15,9 @@ namespace plumb::synth {
 /// A place in road coordinates.
 struct RoadCoordinate {
   bool valid = false;
-  double s_m = 0.0;  ///< along the driven lane
-  double d_m = 0.0;  ///< to the left of its centre
-  double yaw_rad = 0.0;
+  double s_m = 0.0;                                  ///< along the driven lane
+  double d_m = 0.0;                                  ///< to the left of its centre
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< direction of the lane
 };
 
 class Terrain {
@@ -31,6 +31,9 @@ class Terrain {
 
   /// Height without crown and bumps: cheaper, at most kCrown lower.
   [[nodiscard]] double base_height(double x, double y) const;
+
+  /// What the road adds to base_height: crown and bumps. `edge_m` is edge_distance(x, y).
+  [[nodiscard]] double relief(double x, double y, double edge_m) const;
 
   /// Signed distance to the nearest road edge, negative on the road, up to kFar.
   [[nodiscard]] double edge_distance(double x, double y) const;

@@ -1,0 +1,91 @@
+#include "tools/synth/drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace plumb::synth {
+namespace {
+
+struct Motion {
+  double mean = 0.0;
+  double sd = 0.0;
+};
+
+template <typename Read>
+Motion motion_of(const Drive& drive, Read read) {
+  double sum = 0.0;
+  double square = 0.0;
+  int n = 0;
+  for (double t = 2.0; t < drive.duration_s() - 0.5; t += 0.05, ++n) {
+    const double x = read(drive.state(t));
+    sum += x;
+    square += x * x;
+  }
+  const double mean = sum / n;
+  return {mean, std::sqrt(std::max(0.0, square / n - mean * mean))};
+}
+
+TEST(Drive, RigidVehicleOnAPlaneKeepsItsCameraHeight) {
+  Route route = make_builtin_route("city", 20.0, 3);
+  route.flat = true;
+  const Terrain terrain(route);
+  DriveConfig config;
+  config.suspension = 0.0;
+  const Drive drive(terrain, config);
+  for (double t = 0.0; t < 15.0; t += 0.7) {
+    const Se3 T = drive.T_map_cam(t);
+    EXPECT_NEAR(T.t.z(), 1.65, 1e-9);
+    EXPECT_NEAR(T.R(2, 2), 0.0, 1e-9) << "the optical axis is level";
+    EXPECT_NEAR(T.R(2, 1), -1.0, 1e-9) << "y points down";
+  }
+}
+
+TEST(Drive, SpringsMoveTheBodyLikeARealCar) {
+  Route route = make_builtin_route("straight", 60.0, 3);
+  route.flat = true;
+  const Terrain terrain(route);
+  const Drive drive(terrain, DriveConfig{});
+  const double degree = 3.14159265 / 180.0;
+  const Motion pitch = motion_of(drive, [](const VehicleState& s) { return s.pitch_rad; });
+  const Motion heave = motion_of(drive, [](const VehicleState& s) { return s.heave_m; });
+  const Motion roll = motion_of(drive, [](const VehicleState& s) { return s.roll_rad; });
+  EXPECT_GT(pitch.sd, 0.08 * degree);
+  EXPECT_LT(pitch.sd, 0.8 * degree);
+  EXPECT_GT(heave.sd, 0.003);
+  EXPECT_LT(heave.sd, 0.03);
+  EXPECT_GT(roll.sd, 0.05 * degree);
+  EXPECT_LT(roll.sd, 1.2 * degree);
+}
+
+TEST(Drive, BrakingPitchesTheNoseDown) {
+  Route route = make_builtin_route("stop-and-go", 40.0, 3);
+  route.flat = true;
+  route.setting.roughness = 0.0;
+  const Terrain terrain(route);
+  const Drive drive(terrain, DriveConfig{});
+  double braking = 0.0;
+  double pushing = 0.0;
+  for (double t = 1.0; t < 35.0; t += 0.02) {
+    const VehicleState s = drive.state(t);
+    if (s.accel_m_s2 < -1.5) braking = std::max(braking, s.pitch_rad);
+    if (s.accel_m_s2 > 1.0) pushing = std::min(pushing, s.pitch_rad);
+  }
+  EXPECT_GT(braking, 0.005);
+  EXPECT_LT(pushing, -0.003);
+}
+
+TEST(Drive, TurntableTurnsWithoutMoving) {
+  Route route = make_builtin_route("stop-and-go", 5.0, 3);
+  const Terrain terrain(route);
+  DriveConfig config;
+  config.yaw_rate_rad_s = 0.5;
+  const Drive drive(terrain, config);
+  const Se3 a = drive.T_map_veh(0.2);
+  const Se3 b = drive.T_map_veh(1.2);
+  EXPECT_LT((a.t - b.t).norm(), 0.02);
+  EXPECT_NEAR(log_so3(a.R.transpose() * b.R).norm(), 0.5, 0.01);
+}
+
+}  // namespace
+}  // namespace plumb::synth
