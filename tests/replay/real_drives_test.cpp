@@ -1,5 +1,5 @@
-/// Real KITTI drives, from images to metric trajectory, causal, one configuration for all. The bars are those the
-/// project promises; what it reaches is in the README.
+/// Real KITTI drives, from images to metric trajectory, causal, one configuration for all. The bars
+/// are those the project promises; what it reaches is in the README.
 
 #include <gtest/gtest.h>
 

@@ -28,7 +28,8 @@ inline constexpr const char* kCalibration =
     "P0: 80 0 48 0 0 80 36 0 0 0 1 0\n"
     "P2: 80 0 48 4.8 0 80 36 0 0 0 1 0\n";
 
-/// seq/image_0/NNNNNN.png from `first` on, calib.txt and times.txt (0.1 s apart) with one row per image.
+/// seq/image_0/NNNNNN.png from `first` on, calib.txt and times.txt (0.1 s apart) with one row per
+/// image.
 inline std::filesystem::path write_odometry(const TempFolder& folder, int num_frames,
                                             int first = 0) {
   std::string times;

@@ -15,12 +15,12 @@ namespace plumb {
 
 class CalibrationFile {
  public:
-  /// Throws InputError when the file cannot be read. Values are looked at only when asked for: KITTI's files hold
-  /// dates and other text beside them.
+  /// Throws InputError when the file cannot be read. Values are looked at only when asked for:
+  /// KITTI's files hold dates and other text beside them.
   explicit CalibrationFile(const std::filesystem::path& path);
 
-  /// The `count` numbers of `key`. Throws InputError when the key is missing, given twice, or its values are not
-  /// `count` finite numbers.
+  /// The `count` numbers of `key`. Throws InputError when the key is missing, given twice, or its
+  /// values are not `count` finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count) const;
   [[nodiscard]] bool has(const std::string& key) const { return entries_.count(key) != 0; }
   /// One number, or nothing when the key is missing.
@@ -45,8 +45,8 @@ struct RectifiedCamera {
   Eigen::Vector3d t_left_cam_m;  ///< where it is, in the left grey camera's frame
 };
 
-/// Reads `key` ("P0", "P_rect_02") as 12 numbers. Throws InputError when focal lengths are not above zero or the
-/// matrix has a skew or another last row than a pinhole's.
+/// Reads `key` ("P0", "P_rect_02") as 12 numbers. Throws InputError when focal lengths are not
+/// above zero or the matrix has a skew or another last row than a pinhole's.
 [[nodiscard]] RectifiedCamera read_projection(const CalibrationFile& file, const std::string& key);
 
 }  // namespace plumb

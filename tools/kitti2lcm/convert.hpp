@@ -1,5 +1,5 @@
-/// A KITTI sequence into an LCM log: CAMERA_CALIBRATION first and once a second, CAMERA per frame, GROUND_TRUTH
-/// beside it where there is truth. Events carry the true capture times.
+/// A KITTI sequence into an LCM log: CAMERA_CALIBRATION first and once a second, CAMERA per frame,
+/// GROUND_TRUTH beside it where there is truth. Events carry the true capture times.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct ConvertResult {
   bool stopped = false;  ///< by a signal; the log holds the frames up to then
 };
 
-/// Shows its progress on stderr. Throws InputError for a bad image and LogError for a log that cannot be written;
-/// what was written before is a sound log either way.
+/// Shows its progress on stderr. Throws InputError for a bad image and LogError for a log that
+/// cannot be written; what was written before is a sound log either way.
 ConvertResult convert(const Sequence& sequence, const ConvertOptions& options);
 
 }  // namespace plumb

@@ -13,15 +13,15 @@ struct NumberedImage {
   std::filesystem::path path;
 };
 
-/// Every NUMBER.png by number. Throws InputError when the folder is missing or holds none, and when two names give
-/// the same number.
+/// Every NUMBER.png by number. Throws InputError when the folder is missing or holds none, and when
+/// two names give the same number.
 [[nodiscard]] std::vector<NumberedImage> list_images(const std::filesystem::path& folder);
 
 /// Sentences about numbers that are left out, one per gap, at most five.
 [[nodiscard]] std::vector<std::string> describe_gaps(const std::vector<NumberedImage>& images);
 
-/// Which row of a per-frame file belongs to which image. The file has one row per frame number from the first to
-/// the last image, or from 0 on, or one per image.
+/// Which row of a per-frame file belongs to which image. The file has one row per frame number from
+/// the first to the last image, or from 0 on, or one per image.
 class RowLookup {
  public:
   /// Throws InputError when `num_rows` fits none of the three.

@@ -1,4 +1,5 @@
-/// plumb-kitti2lcm: a KITTI sequence into an LCM log that plays with lcm-logplayer and plumb-replay.
+/// plumb-kitti2lcm: a KITTI sequence into an LCM log that plays with lcm-logplayer and
+/// plumb-replay.
 
 #include <CLI/CLI.hpp>
 #include <iostream>

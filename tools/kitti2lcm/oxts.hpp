@@ -1,7 +1,7 @@
 /// Poses of raw drives from their GPS/IMU unit.
 ///
-/// As KITTI's raw development kit: a Mercator projection whose scale is that of the first latitude, and
-/// R = Rz(yaw) Ry(pitch) Rx(roll).
+/// As KITTI's raw development kit: a Mercator projection whose scale is that of the first latitude,
+/// and R = Rz(yaw) Ry(pitch) Rx(roll).
 /// Frames   imu: x forward, y left, z up.  cam: the left rectified camera.
 #pragma once
 

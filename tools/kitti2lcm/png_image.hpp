@@ -17,12 +17,13 @@ struct PngHeader {
   bool colour = false;  ///< anything but plain grey: RGB, palette, alpha
 };
 
-/// Null, and `header` filled, when `bytes` are a PNG with all its chunks; else why not. libpng alone would fill what
-/// is cut off with black and call it a warning.
+/// Null, and `header` filled, when `bytes` are a PNG with all its chunks; else why not. libpng
+/// alone would fill what is cut off with black and call it a warning.
 [[nodiscard]] const char* read_png_header(std::span<const std::uint8_t> bytes, PngHeader* header);
 
-/// Grey pixels of `path`. Colour is converted (luma of BT.601) when `colour_allowed`. Throws InputError for files
-/// that cannot be read, are cut off or corrupt, have not 8 bits per channel, or are in colour.
+/// Grey pixels of `path`. Colour is converted (luma of BT.601) when `colour_allowed`. Throws
+/// InputError for files that cannot be read, are cut off or corrupt, have not 8 bits per channel,
+/// or are in colour.
 [[nodiscard]] cv::Mat load_grey_png(const std::filesystem::path& path, bool colour_allowed);
 
 }  // namespace plumb

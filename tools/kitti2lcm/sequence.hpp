@@ -1,7 +1,7 @@
 /// A KITTI sequence as it lies in its folder: which image belongs to which time, pose and plane.
 ///
-/// Frames   cam: the camera whose images are converted. Poses and planes are KITTI's, of the left grey camera; for
-///          another camera they are moved to it by the calibration's baseline.
+/// Frames   cam: the camera whose images are converted. Poses and planes are KITTI's, of the left
+///          grey camera; for another camera they are moved to it by the calibration's baseline.
 /// Units    SI; times in microseconds since an epoch.
 #pragma once
 
@@ -18,11 +18,12 @@
 
 namespace plumb {
 
-/// "Rectified" KITTI images keep a radial term of 0.008 to 0.012; this value was measured on several drives and
-/// halves the scale drift in turns.
+/// "Rectified" KITTI images keep a radial term of 0.008 to 0.012; this value was measured on
+/// several drives and halves the scale drift in turns.
 inline constexpr double kKittiResidualK1 = 0.008;
 
-/// Odometry times begin at zero; events begin here (2001-09-09 01:46:40 UTC), so that utime is above zero.
+/// Odometry times begin at zero; events begin here (2001-09-09 01:46:40 UTC), so that utime is
+/// above zero.
 inline constexpr std::int64_t kOdometryEpoch_us = 1'000'000'000'000'000;
 
 struct SequenceFrame {

@@ -10,7 +10,8 @@
 namespace plumb {
 namespace {
 
-/// A row under construction: cells are added under the names that the header lists in the same order.
+/// A row under construction: cells are added under the names that the header lists in the same
+/// order.
 class Row {
  public:
   explicit Row(bool names_only) : names_only_(names_only) {}

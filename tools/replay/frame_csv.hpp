@@ -1,8 +1,8 @@
 /// One line of text per image: everything the chain said about it.
 ///
-/// Cells that do not hold (the status says why) are empty. Numbers have as many digits as it takes to read back the
-/// same bits, so two runs can be compared as text. Columns with stage times come last and only on request: they are
-/// the only ones that differ from run to run.
+/// Cells that do not hold (the status says why) are empty. Numbers have as many digits as it takes
+/// to read back the same bits, so two runs can be compared as text. Columns with stage times come
+/// last and only on request: they are the only ones that differ from run to run.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-/// plumb-replay: a log through vo, ground and can in one process; poses, one line per frame, CAN trace.
+/// plumb-replay: a log through vo, ground and can in one process; poses, one line per frame, CAN
+/// trace.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

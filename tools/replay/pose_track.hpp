@@ -8,8 +8,8 @@
 
 namespace plumb {
 
-/// One row per image. An image without a valid pose repeats the row before it; before the first valid one that is
-/// the identity.
+/// One row per image. An image without a valid pose repeats the row before it; before the first
+/// valid one that is the identity.
 class PoseTrack {
  public:
   /// `ego` may be null. Returns the row.

@@ -1,7 +1,8 @@
 /// The live chain in one process: CAMERA of a log -> vo -> ground -> can, as fast as it goes.
 ///
-/// It runs the classes that plumb-vo, plumb-ground and plumb-can run, and hands on the messages they would publish,
-/// so its results are theirs bit for bit as long as no image is lost. Nothing but the log's own time stamps enters.
+/// It runs the classes that plumb-vo, plumb-ground and plumb-can run, and hands on the messages
+/// they would publish, so its results are theirs bit for bit as long as no image is lost. Nothing
+/// but the log's own time stamps enters.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +47,8 @@ class Replay {
 
   [[nodiscard]] std::int64_t num_frames() const { return num_frames_; }
   [[nodiscard]] std::int64_t num_refused() const { return num_refused_; }
-  /// "frame 12: why", or "CAMERA_CALIBRATION: why", of what was refused first; empty when nothing was.
+  /// "frame 12: why", or "CAMERA_CALIBRATION: why", of what was refused first; empty when nothing
+  /// was.
   [[nodiscard]] const std::string& first_refusal() const { return first_refusal_; }
   [[nodiscard]] std::int64_t num_lost() const { return vo_.num_lost(); }
   [[nodiscard]] bool calibrated() const { return vo_.calibrated(); }

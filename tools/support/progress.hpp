@@ -1,4 +1,5 @@
-/// Progress of a long job on stderr: a bar that redraws itself on a terminal, a line every two seconds elsewhere.
+/// Progress of a long job on stderr: a bar that redraws itself on a terminal, a line every two
+/// seconds elsewhere.
 #pragma once
 
 #include <cstdint>

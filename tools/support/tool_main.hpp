@@ -9,9 +9,10 @@ namespace plumb {
 
 inline constexpr int kExitBadInput = 2;
 
-/// Adds --version to `app`, parses, then calls `run`. Returns what the process should exit with: 0, what `run`
-/// returned, or 2 after printing one sentence to stderr for wrong options and for any std::exception, which the
-/// tools throw for wrong input (InputError) and files that cannot be read or written (LogError).
+/// Adds --version to `app`, parses, then calls `run`. Returns what the process should exit with: 0,
+/// what `run` returned, or 2 after printing one sentence to stderr for wrong options and for any
+/// std::exception, which the tools throw for wrong input (InputError) and files that cannot be read
+/// or written (LogError).
 int tool_main(CLI::App* app, int argc, char** argv, const std::function<int()>& run);
 
 }  // namespace plumb
