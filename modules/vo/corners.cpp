@@ -6,9 +6,9 @@
 namespace plumb::vo {
 namespace {
 
-constexpr int kBorderPx = 12;
+constexpr int kBorderPx = 6;
 constexpr int kBoxHalf = 2;  // structure tensor over 5 x 5
-constexpr int kMaskStep = 4;
+constexpr int kMaskStep = 2;
 constexpr int kMaskReach = 2;  // blocks kept free around a taken point
 constexpr double kRoadThresholdRatio = 0.15;
 

@@ -40,7 +40,7 @@ class CornerDetector {
   int pitch_;  // of the tensor buffers
   std::vector<unsigned char> cell_taken_;
   int mask_width_;
-  std::vector<unsigned char> mask_;  // quarter resolution
+  std::vector<unsigned char> mask_;  // in blocks of pixels
   std::vector<float> xx_, xy_, yy_;  // products of gradients, then their box means
   std::vector<float> sum_xx_, sum_xy_, sum_yy_;
   std::vector<Eigen::Vector2d> found_;

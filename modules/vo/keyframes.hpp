@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/geometry/camera_model.hpp"
+#include "modules/imaging/pyramid.hpp"
 #include "modules/vo/corners.hpp"
 #include "modules/vo/track.hpp"
 #include "modules/vo/vo_config.hpp"
@@ -33,7 +34,7 @@ class Keyframes {
   /// Makes `slot` a keyframe; the oldest one leaves when there are too many, and its tracks change host.
   void promote(int slot, const ImageView& image, TrackTable& tracks, Window& window);
   /// Starts tracks at new corners of keyframe `slot`. Returns how many.
-  int spawn(int slot, const ImageView& image, TrackTable& tracks, const Window& window);
+  int spawn(int slot, const Pyramid& image, TrackTable& tracks, const Window& window);
   /// Active tracks when the newest keyframe was made.
   [[nodiscard]] int num_at_keyframe() const { return num_at_keyframe_; }
 

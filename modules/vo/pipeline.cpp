@@ -193,7 +193,7 @@ void Pipeline::insert(const VoInput& input, const Se3& T_cam_world, bool refine,
   }
   probe.mark("refine");
   if (keyframe) {
-    out_.num_new = keyframes_.spawn(slot, image().level(0), tracks_, window_);
+    out_.num_new = keyframes_.spawn(slot, image(), tracks_, window_);
     probe.mark("detect");
   }
   out_.is_keyframe = keyframe;

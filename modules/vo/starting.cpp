@@ -36,7 +36,7 @@ void Pipeline::begin_reference(std::int64_t seq, const Se3& T_cam_world, const P
   held_ = false;
   const int slot = window_.add(seq, T_cam_world);
   keyframes_.promote(slot, from.level(0), tracks_, window_);
-  out_.num_new = keyframes_.spawn(slot, from.level(0), tracks_, window_);
+  out_.num_new = keyframes_.spawn(slot, from, tracks_, window_);
   num_at_reference_ = out_.num_new;
   predicted_distance_ = 0.0;
   mode_ = Mode::kStarting;
@@ -182,7 +182,7 @@ void Pipeline::adopt_two_views(const TwoView& views, double distance) {
   keyframes_.trim_recent(tracks_, window_);
   out_.num_inliers = static_cast<int>(tracks_.active().size());
   out_.is_keyframe = true;
-  out_.num_new = keyframes_.spawn(newest, image().level(0), tracks_, window_);
+  out_.num_new = keyframes_.spawn(newest, image(), tracks_, window_);
 }
 
 // Tracking failed: the last image and this one make a new start, with the distance that the speed before predicts.

@@ -12,7 +12,7 @@ struct VoConfig {
   double keyframe_overlap_ratio = 0.7;
   int fixed_keyframes = 4;
   double start_flow_px = 6.0;
-  double hold_flow_px = 0.2;
+  double hold_flow_px = 0.35;
   double coast_limit_s = 2.0;
   double coast_decay_s = 3.0;
   double dark_grey = 6.0;

@@ -68,7 +68,7 @@ inline Frames load_frames() {
   frames.name = "rendered street";
   const test::Scene scene(frames.camera);
   unsigned seed = 0;
-  for (const Se3& T_world_cam : test::drive(kMaxFrames / 2, 0.9)) {
+  for (const Se3& T_world_cam : test::drive(kMaxFrames, 0.7)) {
     const test::RenderedImage image = scene.render(T_world_cam, 1.5, ++seed);
     frames.images.push_back(
         cv::Mat(375, 1242, CV_8U, const_cast<unsigned char*>(image.pixels.data())).clone());
