@@ -1,0 +1,143 @@
+#include "modules/objects/objects_node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace plumb {
+namespace {
+
+constexpr double kCalibratedRollStd = 0.01;    ///< [rad]
+constexpr double kCalibratedHeightStd = 0.01;  ///< [ratio]
+constexpr double kLongestGap_s = 2.0;          ///< velocities say nothing across a longer one
+
+bool motion_holds(EgoStatus status) {
+  return status == EgoStatus::kOk || status == EgoStatus::kScaleHeld ||
+         status == EgoStatus::kStandstill || status == EgoStatus::kCoasting;
+}
+
+/// Of the ground axes, from that of the camera; its tilt against the road changes it by less than a
+/// thousandth.
+void set_motion(const Se3& T_prev_cam, GroundMotion* motion) {
+  motion->known = true;
+  motion->t_m = {T_prev_cam.t.z(), -T_prev_cam.t.x()};
+  motion->yaw_rad = -log_so3(T_prev_cam.R).y();
+}
+
+}  // namespace
+
+ObjectsNode::ObjectsNode(const DetectionsConfig& detections, const ObjectsConfig& objects,
+                         const GroundConfig& ground, Sink sink)
+    : detections_(detections),
+      objects_(objects),
+      config_height_m_(ground.camera_height_m),
+      sink_(std::move(sink)) {
+  message_.objects.reserve(kMaxObjects);
+}
+
+const char* ObjectsNode::take_calibration(const camera_calibration_t& message) {
+  CameraModel camera;
+  if (const char* why = from_wire(message, &camera)) return why;
+  if (calibrated()) {
+    return same_camera(camera, camera_)
+               ? nullptr
+               : "calibration differs from the first one; restart to use it";
+  }
+  camera_ = camera;
+  tracker_.emplace(detections_, objects_, camera_);
+  return nullptr;
+}
+
+const char* ObjectsNode::take_plane(const ground_plane_t& message) {
+  plane_ = message;
+  has_plane_ = true;
+  return has_ego_ && ego_.seq == plane_.seq ? pair(plane_, ego_) : nullptr;
+}
+
+const char* ObjectsNode::take_ego(const ego_motion_t& message) {
+  ego_ = message;
+  has_ego_ = true;
+  return has_plane_ && ego_.seq == plane_.seq ? pair(plane_, ego_) : nullptr;
+}
+
+const char* ObjectsNode::pair(const ground_plane_t& plane, const ego_motion_t& ego) {
+  has_plane_ = has_ego_ = false;
+  if (const char* why = from_wire(plane, ego, &output_)) return why;
+  Ground& ground = kept_[next_];
+  next_ = (next_ + 1) % kKept;
+  ground.seq = output_.seq;
+  ground.capture_us = output_.capture_us;
+  const PlaneOutput& out = output_.plane;
+  ground.plane_holds = out.status == GroundStatus::kOk || out.status == GroundStatus::kHeld;
+  ground.plane = {out.pitch_rad, out.roll_rad, out.height_m, out.cov};
+  ground.motion_holds = motion_holds(output_.ego.status);
+  ground.reset_counter = output_.ego.reset_counter;
+  ground.T_world_cam = output_.ego.T_world_cam;
+  if (waiting_ && frame_.seq == ground.seq && frame_.capture_us == ground.capture_us) {
+    process(&ground);
+  }
+  return nullptr;
+}
+
+const char* ObjectsNode::take_detections(const detections_t& message) {
+  if (const char* why = from_wire(message, &arrived_)) return why;
+  if (!calibrated()) return "detections came before a calibration";
+  const bool newer_than_waiting = !waiting_ || arrived_.capture_us > frame_.capture_us;
+  if (!newer_than_waiting || (any_ && arrived_.capture_us <= last_.capture_us)) {
+    return "detections of an image that is not newer than the last one";
+  }
+  expire();
+  frame_ = arrived_;
+  const Ground* ground = find(frame_.seq, frame_.capture_us);
+  if (ground == nullptr) {
+    waiting_ = true;
+  } else {
+    process(ground);
+  }
+  return nullptr;
+}
+
+void ObjectsNode::expire() {
+  if (waiting_) process(nullptr);
+}
+
+const ObjectsNode::Ground* ObjectsNode::find(std::int64_t seq, std::int64_t capture_us) const {
+  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Ground& ground) {
+    return ground.seq == seq && ground.capture_us == capture_us;
+  });
+  return found == kept_.end() ? nullptr : &*found;
+}
+
+RoadPlane ObjectsNode::calibrated_plane() const {
+  RoadPlane plane;
+  plane.pitch_rad = detections_.mean_pitch_rad;
+  plane.height_m = camera_.camera_height_m > 0.0 ? camera_.camera_height_m : config_height_m_;
+  plane.cov.diagonal() << detections_.pitch_std_rad * detections_.pitch_std_rad,
+      kCalibratedRollStd * kCalibratedRollStd, kCalibratedHeightStd * kCalibratedHeightStd;
+  return plane;
+}
+
+void ObjectsNode::process(const Ground* ground) {
+  waiting_ = false;
+  ObjectsInput input;
+  input.frame = &frame_;
+  input.plane_measured = ground != nullptr && ground->plane_holds;
+  input.plane = input.plane_measured ? ground->plane : calibrated_plane();
+
+  Ground now;
+  if (ground != nullptr) now = *ground;
+  now.seq = frame_.seq;
+  now.capture_us = frame_.capture_us;
+  if (any_) {
+    input.motion.dt_s =
+        std::min(1e-6 * static_cast<double>(now.capture_us - last_.capture_us), kLongestGap_s);
+    if (now.motion_holds && last_.motion_holds && now.reset_counter == last_.reset_counter) {
+      set_motion(last_.T_world_cam.inverse() * now.T_world_cam, &input.motion);
+    }
+  }
+  last_ = now;
+  any_ = true;
+  to_wire(tracker_->update(input), &message_);
+  sink_(message_);
+}
+
+}  // namespace plumb
