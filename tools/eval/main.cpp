@@ -7,6 +7,7 @@
 #include "tools/eval/plots.hpp"
 #include "tools/eval/report_json.hpp"
 #include "tools/eval/report_text.hpp"
+#include "tools/objects_eval/objects_command.hpp"
 #include "tools/support/input_error.hpp"
 #include "tools/support/number_file.hpp"
 #include "tools/support/tool_main.hpp"
@@ -19,6 +20,7 @@ constexpr const char* kFooter = R"(Examples
   plumb-eval poses/05.txt out/05.txt --lengths 10,20,50  for a short drive
   plumb-eval --gt-dir poses --est-dir out --json all.json --plots pictures
   plumb-eval plane gt_ground_plane_velodyne.txt out/04.csv
+  plumb-eval objects kitti/tracking --boxes det2d/CIWT
 
 The metric compares relative poses only: neither file need begin with the identity.)";
 
@@ -130,7 +132,10 @@ int main(int argc, char** argv) {
   plumb::Arguments arguments;
   CLI::App app("Error of estimated trajectories and ground planes against the truth", "plumb-eval");
   const CLI::App* plane = plumb::add_options(&app, &arguments);
+  plumb::ObjectsCommand objects_command;
+  const CLI::App* objects = plumb::add_objects_command(&app, &objects_command);
   return plumb::tool_main(&app, argc, argv, [&] {
+    if (objects->parsed()) return plumb::run_objects_command(objects_command);
     return plane->parsed() ? plumb::evaluate_planes(arguments)
                            : plumb::evaluate_trajectories(arguments);
   });

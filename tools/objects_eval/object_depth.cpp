@@ -1,0 +1,267 @@
+#include "tools/objects_eval/object_depth.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "modules/detections/detection_cue.hpp"
+#include "modules/detections/foot_point.hpp"
+#include "modules/objects/objects.hpp"
+#include "tools/objects_eval/kitti_tracking.hpp"
+#include "tools/support/text.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kClose_m = 10.0;
+constexpr double kFramePeriod_s = 0.1;
+constexpr double kLeastOverlap = 0.5;
+constexpr double kFarthestRatio =
+    3.0;  ///< a foot point at the horizon counts as three times too far
+constexpr double kRollStd = 0.01;
+constexpr double kHeightStd = 0.01;
+
+using Placements = std::array<Eigen::Vector2d, kNumMethods>;  ///< (Z, X) in cam
+
+double overlap(const Box& a, const Box& b) {
+  const double width = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
+  const double height = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
+  if (width <= 0.0 || height <= 0.0) return 0.0;
+  const double both = width * height;
+  return both / (a.width_px() * a.height_px() + b.width_px() * b.height_px() - both);
+}
+
+/// The box of a label: its own, or the tracker's that overlaps it most.
+const Detection* box_of(const TrackingRow& label, const DetectionFrame& frame,
+                        bool labels_are_boxes) {
+  const Detection* found = nullptr;
+  double best = kLeastOverlap;
+  for (const Detection& detection : frame.detections) {
+    if (labels_are_boxes && detection.track_id != label.detection.track_id) continue;
+    const double share = overlap(detection.box, label.detection.box);
+    if (share <= best) continue;
+    best = share;
+    found = &detection;
+  }
+  return found;
+}
+
+bool takes_part(const TrackingRow& row, int frame) {
+  const Detection& d = row.detection;
+  const bool vehicle = d.object_class == ObjectClass::kCar || d.object_class == ObjectClass::kVan;
+  const bool visible = d.occluded == Occlusion::kVisible || d.occluded == Occlusion::kPartly;
+  return row.frame == frame && row.has_box3d && vehicle && visible && d.truncated_ratio == 0.0;
+}
+
+const ObjectOutput* track_of(const ObjectsOutput& output, std::int32_t track_id) {
+  for (const ObjectOutput& object : output.objects) {
+    const bool placed = object.status != ObjectStatus::kNotLocalised;
+    if (object.track_id == track_id && placed) return &object;
+  }
+  return nullptr;
+}
+
+/// Running state of one sequence.
+class SequenceRun {
+ public:
+  SequenceRun(const ObjectDepthOptions& options, const std::string& name)
+      : options_(options),
+        camera_(read_tracking_camera(options.root / "calib" / (name + ".txt"))),
+        labels_(read_tracking(options.root / "label_02" / (name + ".txt"))),
+        boxes_(read_tracking(options.root / options.boxes / (name + ".txt"))),
+        cue_(options.detections, camera_.model),
+        calibrated_tracker_(options.detections, options.objects, camera_.model),
+        cue_tracker_(options.detections, options.objects, camera_.model) {
+    result_.name = name;
+  }
+
+  SequenceDepth run() {
+    int last = -1;
+    for (const TrackingRow& row : labels_) last = std::max(last, row.frame);
+    for (int frame = 0; frame <= last; ++frame) step(frame);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    result_.pitch_rms_rad = num_pitches_ > 0 ? std::sqrt(pitch_sum_ / num_pitches_) : nan;
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] RoadPlane plane(double pitch_rad, double pitch_var) const {
+    RoadPlane result;
+    result.pitch_rad = pitch_rad;
+    result.height_m = options_.camera_height_m;
+    result.cov.diagonal() << pitch_var, kRollStd * kRollStd, kHeightStd * kHeightStd;
+    return result;
+  }
+
+  void step(int frame_number) {
+    const DetectionFrame frame = detections_of_frame(boxes_, frame_number);
+    DetectionCueInput cue_input;
+    cue_input.frame = &frame;
+    cue_input.height_m = options_.camera_height_m;
+    const DetectionCueOutput& cue = cue_.update(cue_input);
+    const double prior_std = options_.detections.pitch_std_rad;
+    const RoadPlane calibrated = plane(options_.detections.mean_pitch_rad, prior_std * prior_std);
+    const RoadPlane from_cue = plane(cue.pitch_rad, cue.pitch_var_rad2);
+    if (cue.status == DetectionCueStatus::kHolds) compare_pitch(frame_number, std::asin(cue.n3));
+
+    ObjectsInput input;
+    input.frame = &frame;
+    input.plane_measured = true;
+    input.motion.dt_s = frame_number == 0 ? 0.0 : kFramePeriod_s;
+    input.plane = calibrated;
+    const ObjectsOutput& on_calibrated = calibrated_tracker_.update(input);
+    input.plane = from_cue;
+    const ObjectsOutput& on_cue = cue_tracker_.update(input);
+
+    for (const TrackingRow& label : labels_) {
+      if (!takes_part(label, frame_number)) continue;
+      ++result_.num_labels;
+      const Detection* box = box_of(label, frame, options_.boxes == "label_02");
+      if (box == nullptr) continue;
+      const ObjectOutput* first = track_of(on_calibrated, box->track_id);
+      const ObjectOutput* second = track_of(on_cue, box->track_id);
+      if (first == nullptr || second == nullptr) continue;
+      const Eigen::Vector3d truth_cam = label.foot_cam0 + camera_.t_cam_cam0;
+      const Placements placed{foot(*box, calibrated, truth_cam), foot(*box, from_cue, truth_cam),
+                              track(*first, calibrated), track(*second, from_cue)};
+      score(truth_cam, placed, *second, from_cue);
+    }
+  }
+
+  [[nodiscard]] Eigen::Vector2d foot(const Detection& box, const RoadPlane& road,
+                                     const Eigen::Vector3d& truth_cam) const {
+    const Eigen::Vector2d foot_px(box.box.centre_u_px(), box.box.bottom_px);
+    const auto point = back_project_foot(camera_.model, road, foot_px, Eigen::Matrix2d::Zero());
+    const FootprintPrior& size = options_.objects.footprint(box.object_class);
+    const double farthest_m = kFarthestRatio * truth_cam.z();
+    const double z_m = point ? point->p_cam.z() + 0.5 * size.width_m * size.ratio : farthest_m;
+    const double held_m = std::min(z_m, farthest_m);
+    return {held_m, held_m * camera_.model.to_normalized(foot_px).x()};
+  }
+
+  [[nodiscard]] static Eigen::Vector2d track(const ObjectOutput& object, const RoadPlane& road) {
+    const Eigen::Vector3d p_cam =
+        road.cam_from_ground({object.position_m.x(), object.position_m.y(), 0.0});
+    return {p_cam.z(), p_cam.x()};
+  }
+
+  void score(const Eigen::Vector3d& truth_cam, const Placements& placed, const ObjectOutput& object,
+             const RoadPlane& road) {
+    const double truth_m = truth_cam.z();
+    DepthErrors& errors = truth_m <= kClose_m ? result_.close : result_.distant;
+    ++errors.num_samples;
+    for (std::size_t m = 0; m < kNumMethods; ++m) {
+      const Eigen::Vector2d off = placed[m] - Eigen::Vector2d(truth_m, truth_cam.x());
+      errors.sum_ratio[m] += std::abs(off.x()) / truth_m;
+      errors.sum_position[m] += off.norm() / truth_m;
+    }
+    const Eigen::Vector2d off = object.position_m - road.ground_from_cam(truth_cam).head<2>();
+    errors.sum_nees += off.dot(object.position_cov_m2.inverse() * off) / 2.0;
+  }
+
+  /// Truth: the pitch of the plane under the camera that fits the labelled feet best.
+  void compare_pitch(int frame, double pitch_rad) {
+    double sum = 0.0, weight = 0.0;
+    for (const TrackingRow& row : labels_) {
+      if (!takes_part(row, frame)) continue;
+      const double z_m = row.foot_cam0.z();
+      sum += (options_.camera_height_m - row.foot_cam0.y()) * z_m;
+      weight += z_m * z_m;
+    }
+    if (!(weight > 0.0)) return;
+    const double off = pitch_rad - std::atan(sum / weight);
+    pitch_sum_ += off * off;
+    ++num_pitches_;
+  }
+
+  const ObjectDepthOptions& options_;
+  TrackingCamera camera_;
+  std::vector<TrackingRow> labels_;
+  std::vector<TrackingRow> boxes_;
+  DetectionCue cue_;
+  ObjectTracker calibrated_tracker_;
+  ObjectTracker cue_tracker_;
+  SequenceDepth result_;
+  double pitch_sum_ = 0.0;
+  int num_pitches_ = 0;
+};
+
+double mean(double sum, std::size_t count) {
+  return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string row_of(const SequenceDepth& sequence) {
+  std::string text = format("%-6s", sequence.name.c_str());
+  for (const DepthErrors* errors : {&sequence.close, &sequence.distant}) {
+    text += format(" | %6zu", errors->num_samples);
+    for (std::size_t m = 0; m < kNumMethods; ++m) {
+      text += format(" %6.1f", errors->depth_percent(static_cast<PlacementMethod>(m)));
+    }
+    text += format(" %5.1f", errors->mean_nees());
+  }
+  constexpr double kDegrees = 57.29577951308232;
+  return text + format(" | %6.2f\n", kDegrees * sequence.pitch_rms_rad);
+}
+
+}  // namespace
+
+void DepthErrors::add(const DepthErrors& other) {
+  num_samples += other.num_samples;
+  sum_nees += other.sum_nees;
+  for (std::size_t m = 0; m < kNumMethods; ++m) {
+    sum_ratio[m] += other.sum_ratio[m];
+    sum_position[m] += other.sum_position[m];
+  }
+}
+
+double DepthErrors::depth_percent(PlacementMethod method) const {
+  return 100.0 * mean(sum_ratio[method], num_samples);
+}
+double DepthErrors::position_percent(PlacementMethod method) const {
+  return 100.0 * mean(sum_position[method], num_samples);
+}
+double DepthErrors::mean_nees() const { return mean(sum_nees, num_samples); }
+
+std::vector<SequenceDepth> evaluate_object_depth(const ObjectDepthOptions& options) {
+  std::vector<SequenceDepth> sequences;
+  for (const std::string& name : options.sequences) {
+    sequences.push_back(SequenceRun(options, name).run());
+  }
+  return sequences;
+}
+
+SequenceDepth pool(const std::vector<SequenceDepth>& sequences) {
+  SequenceDepth all;
+  all.name = "all";
+  double pitch_sum = 0.0;
+  int num_pitches = 0;
+  for (const SequenceDepth& sequence : sequences) {
+    all.close.add(sequence.close);
+    all.distant.add(sequence.distant);
+    all.num_labels += sequence.num_labels;
+    if (!std::isfinite(sequence.pitch_rms_rad)) continue;
+    pitch_sum += sequence.pitch_rms_rad * sequence.pitch_rms_rad;
+    ++num_pitches;
+  }
+  // Sequences weigh alike.
+  all.pitch_rms_rad = std::sqrt(mean(pitch_sum, static_cast<std::size_t>(num_pitches)));
+  return all;
+}
+
+std::string depth_table(const std::vector<SequenceDepth>& sequences) {
+  std::string text = "depth error [%], mean of |Z - Z*| / Z*\n";
+  for (std::size_t m = 0; m < kNumMethods; ++m) {
+    text += format("  %c  %s\n", static_cast<char>('A' + m), kMethodNames[m]);
+  }
+  text +=
+      "       | close (<= 10 m)                          | distant"
+      "                                  | cue\n"
+      "seq    |      n      A      B      C      D  NEES |      n      A      B      C      D"
+      "  NEES | pitch RMS [deg]\n";
+  for (const SequenceDepth& sequence : sequences) text += row_of(sequence);
+  return text + row_of(pool(sequences));
+}
+
+}  // namespace plumb

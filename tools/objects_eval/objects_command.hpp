@@ -1,0 +1,25 @@
+/// The subcommand `plumb-eval objects`: how far off objects are placed on KITTI tracking sequences.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+struct ObjectsCommand {
+  std::string root;
+  std::string boxes = "label_02";
+  std::vector<std::string> sequences;  ///< empty: every file in label_02
+  double camera_height_m = 1.65;
+  std::string config;
+  std::string json;
+};
+
+/// The subcommand with its options, which fill `command`.
+CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command);
+
+/// Prints the table, writes the JSON. Returns the exit code; throws InputError and ConfigError.
+int run_objects_command(const ObjectsCommand& command);
+
+}  // namespace plumb
