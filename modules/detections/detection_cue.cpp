@@ -17,7 +17,7 @@ constexpr double kDisagreementKeep = 0.7;   ///< per frame
 constexpr double kHiddenFootStd = 0.5;      ///< shares of the height per share hidden
 constexpr double kLeastWeight = 0.05;
 constexpr std::size_t kLeastCandidates = 6;
-constexpr double kLeastOverlap = 0.1;
+constexpr double kLeastOverlap = 0.2;
 constexpr int kMixtureIterations = 8;
 constexpr double kMostMixtureResidual = 0.25;  ///< share of the amplitude
 
@@ -147,20 +147,29 @@ double DetectionCue::edge_var_px2(const DetectionFrame& frame, std::size_t index
   return square(config_.edge_std_px) + square(config_.edge_std_ratio * box.height_px());
 }
 
+void DetectionCue::add_to_mixture(const Detection& detection) {
+  if (!mixture_.add_component(detection.box, detection.score)) return;
+  for (const Candidate& candidate : detection.candidates) {
+    mixture_.add_sample(candidate.box, candidate.score);
+  }
+}
+
 bool DetectionCue::fit_candidates(const DetectionFrame& frame, std::size_t index) {
   const Detection& detection = frame.detections[index];
   if (detection.candidates.size() < kLeastCandidates) return false;
-  mixture_.clear();
+  // The neighbour that shares most candidates with it takes part; more than one would cost more
+  // time than a frame has.
+  std::size_t neighbour = index;
+  double most_overlap = kLeastOverlap;
   for (std::size_t i = 0; i < frame.detections.size(); ++i) {
-    // The box itself, and neighbours near enough to share candidates with it.
-    const Detection& other = frame.detections[i];
-    const bool takes_part =
-        i == index || intersection_over_union(other.box, detection.box) > kLeastOverlap;
-    if (!takes_part || !mixture_.add_component(other.box, other.score)) continue;
-    for (const Candidate& candidate : other.candidates) {
-      mixture_.add_sample(candidate.box, candidate.score);
-    }
+    const double overlap = intersection_over_union(frame.detections[i].box, detection.box);
+    if (i == index || overlap <= most_overlap) continue;
+    most_overlap = overlap;
+    neighbour = i;
   }
+  mixture_.clear();
+  add_to_mixture(detection);
+  if (neighbour != index) add_to_mixture(frame.detections[neighbour]);
   return mixture_.num_samples() >= kLeastCandidates && mixture_.fit(kMixtureIterations);
 }
 

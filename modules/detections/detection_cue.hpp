@@ -78,6 +78,7 @@ class DetectionCue {
   void read_boxes(const DetectionCueInput& input);
   bool read_box(const DetectionCueInput& input, Reading* reading);
   [[nodiscard]] double edge_var_px2(const DetectionFrame& frame, std::size_t index);
+  void add_to_mixture(const Detection& detection);
   bool fit_candidates(const DetectionFrame& frame, std::size_t index);
   void judge(const DetectionCueInput& input);
   void combine(const DetectionCueInput& input);
