@@ -19,6 +19,12 @@ class Pyramid {
   /// Allocates every level. @pre width_px, height_px >= 2^num_levels, 1 <= num_levels <= kMaxLevels
   Pyramid(int width_px, int height_px, int num_levels);
 
+  // The views point into the storage: it may move, a copy would look into the original.
+  Pyramid(const Pyramid&) = delete;
+  Pyramid& operator=(const Pyramid&) = delete;
+  Pyramid(Pyramid&&) = default;
+  Pyramid& operator=(Pyramid&&) = default;
+
   /// Copies `image` to level 0 and fills the rest. @pre image has the constructed size
   void build(const ImageView& image);
 
