@@ -47,16 +47,6 @@ std::vector<int> sockets_bound_to(int port) {
   return found;
 }
 
-// Time between the socket and now; liblcm stamps with the calendar clock, so a step of that clock
-// is clamped.
-std::int64_t queued_us(const lcm_recv_buf_t& raw) {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  const std::int64_t now_us =
-      static_cast<std::int64_t>(now.tv_sec) * 1'000'000 + now.tv_nsec / 1000;
-  return std::clamp<std::int64_t>(now_us - raw.recv_utime, 0, 60'000'000);
-}
-
 }  // namespace
 
 Bus::Bus(const std::string& url, Counters* counters) : url_(resolve_url(url)), counters_(counters) {
@@ -72,7 +62,8 @@ int Bus::fileno() {
   return fd;
 }
 
-bool Bus::handle(int timeout_ms) {
+bool Bus::handle(int timeout_ms, std::int64_t busy_since_us) {
+  busy_since_us_ = busy_since_us;
   const int result = lcm_handle_timeout(lcm_, timeout_ms);
   if (result < 0) log_limited("receiving from LCM failed");
   return result > 0;
@@ -137,7 +128,14 @@ void RawSubscriber::dispatch(const lcm_recv_buf_t& raw) {
     counters.reject(refused);
     log_limited("a message on %s was refused: %s", channel_.name, refused);
   }
-  if (channel_.stale_us > 0 && queued_us(raw) > channel_.stale_us) ++counters.num_late;
+  if (channel_.stale_us > 0 && waited_us(raw) > channel_.stale_us) ++counters.num_late;
+}
+
+// Between the socket and now. liblcm stamps arrival with the calendar clock, which may step, and does not renew the
+// stamp of a buffer that it uses again, so its word counts only as far back as this thread has been busy.
+std::int64_t RawSubscriber::waited_us(const lcm_recv_buf_t& raw) const {
+  return std::clamp<std::int64_t>(realtime_us() - raw.recv_utime, 0,
+                                  monotonic_us() - bus_.busy_since_us_);
 }
 
 }  // namespace plumb

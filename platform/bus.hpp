@@ -49,8 +49,9 @@ class Bus {
 
   /// Readable when a message waits. Throws BusError when the network cannot be joined.
   [[nodiscard]] int fileno();
-  /// Dispatches at most one message, waiting up to `timeout_ms` for it. True when there was one.
-  bool handle(int timeout_ms = 0);
+  /// Dispatches at most one message, waiting up to `timeout_ms` for it. True when there was one. The message cannot
+  /// have waited since before `busy_since_us` (EventLoop), which bounds what liblcm says about its arrival.
+  bool handle(int timeout_ms = 0, std::int64_t busy_since_us = 0);
 
   /// [bytes] of queued messages the kernel granted (half of SO_RCVBUF: the kernel books its own
   /// overhead in the other half); 0 before the first subscription and where there is no socket.
@@ -70,6 +71,7 @@ class Bus {
   Counters* counters_;
   lcm_t* lcm_ = nullptr;
   int receive_buffer_bytes_ = 0;
+  std::int64_t busy_since_us_ = 0;
   std::vector<const RawSubscriber*> subscribers_;
 };
 
@@ -98,6 +100,7 @@ class RawSubscriber {
  private:
   static void on_message(const lcm_recv_buf_t* raw, const char* channel, void* self);
   void dispatch(const lcm_recv_buf_t& raw);
+  [[nodiscard]] std::int64_t waited_us(const lcm_recv_buf_t& raw) const;
 
   Bus& bus_;
   const Channel& channel_;

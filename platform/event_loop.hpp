@@ -40,6 +40,8 @@ class EventLoop {
   /// One round, waiting up to `timeout_ms` (-1: for ever). False when the loop is to end.
   bool step(int timeout_ms);
   void stop() { stopped_ = true; }
+  /// [us] monotonic time since which something has been ready without pause: nothing served now has waited longer.
+  [[nodiscard]] std::int64_t busy_since_us() const { return busy_since_us_; }
   /// SIGINT or SIGTERM, 0 when none came.
   [[nodiscard]] int stop_signal() const { return stop_signal_; }
 
@@ -48,6 +50,7 @@ class EventLoop {
     bool is_timer;
     Callback callback;
   };
+  int wait(int timeout_ms);
   std::size_t add(int fd, bool is_timer, Callback callback);
   void set_timer(TimerId timer, std::int64_t at_us, std::int64_t period_us);
 
@@ -55,6 +58,7 @@ class EventLoop {
   std::vector<Source> sources_;
   bool stopped_ = false;
   int stop_signal_ = 0;
+  std::int64_t busy_since_us_ = 0;
 };
 
 }  // namespace plumb

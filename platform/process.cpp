@@ -98,7 +98,7 @@ void Process::serve(const std::function<void()>& setup) {
   Publisher<process_health_t> publisher(*p.bus, p.info.health, Health::kMaxBytes, &health_counters);
   setup();
   if (!p.bus->subscribers().empty()) {
-    p.loop->watch(p.bus->fileno(), [&p] { p.bus->handle(); });
+    p.loop->watch(p.bus->fileno(), [&p] { p.bus->handle(0, p.loop->busy_since_us()); });
   }
   const auto report = [&p, &publisher] {
     publisher.publish(p.health.report(monotonic_us(), p.counters, *p.bus, p.timer));

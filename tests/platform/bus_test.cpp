@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "platform/clock.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/vo_motion_t.hpp"
 
@@ -206,6 +207,11 @@ TEST_F(BusTest, CountsAMessageThatWaitedTooLongAsLate) {
   usleep(60'000);
   bus_.handle(0);
   EXPECT_EQ(1, counters_.num_late);
+  lcm_publish(bus_.lcm(), kImpatient.name, "x", 1);
+  usleep(60'000);
+  bus_.handle(0, monotonic_us() - 1'000);
+  EXPECT_EQ(1, counters_.num_late)
+      << "this thread idled a moment ago: the stamp of arrival is wrong";
 }
 
 TEST(Bus, RefusesANetworkThatDoesNotExist) {
