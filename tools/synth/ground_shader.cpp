@@ -12,6 +12,13 @@ using Eigen::Vector3d;
 
 constexpr double kAsphalt = 0.155;
 constexpr double kPaint = 0.42;
+constexpr double kRepairCell = 13.0;   ///< [m] of road with at most one patch
+constexpr double kManholeCell = 27.0;  ///< [m] with at most one manhole
+constexpr double kDashBlock = 70.0;    ///< [m] over which a street has a centre line or not
+
+std::size_t index_of(double s_m, double cell_m, std::size_t count) {
+  return std::min(static_cast<std::size_t>(std::max(0.0, s_m / cell_m)), count - 1);
+}
 
 double roll_dice(std::uint64_t seed, std::int64_t cell, std::uint64_t purpose) {
   return uniform_of(hash_keys(seed, static_cast<std::uint64_t>(cell + 100'000), purpose));
@@ -25,7 +32,9 @@ double joints(double x, double period_m, double gap_m, double reach_m) {
 }  // namespace
 
 GroundShader::GroundShader(const Terrain& terrain, const Textures& textures, const GroundLook& look)
-    : terrain_(terrain), textures_(textures), look_(look) {}
+    : terrain_(terrain), textures_(textures), look_(look) {
+  plan_details();
+}
 
 Reflectance GroundShader::shade(const Patch& patch, const GroundHit& hit) const {
   const double x = patch.p_map.x();
@@ -86,29 +95,51 @@ double GroundShader::asphalt(const Patch& patch, const Footprint& f, const Here&
   return std::max(0.02, albedo);
 }
 
+void GroundShader::plan_details() {
+  const double length = terrain_.route().length_m();
+  for (std::int64_t k = 0; static_cast<double>(k) * kRepairCell < length; ++k) {
+    const auto dice = [&](std::uint64_t purpose) { return roll_dice(look_.seed, k, purpose); };
+    Repair repair;
+    if (dice(1) < 0.4) {
+      repair.s_m = (static_cast<double>(k) + dice(2)) * kRepairCell;
+      repair.length_m = 0.8 + 8.0 * dice(3);
+      repair.d_m = -2.4 + 5.5 * dice(4);
+      repair.width_m = 0.5 + 2.0 * dice(5);
+      repair.tone = (dice(6) < 0.65 ? -0.22 : 0.16) * dice(7);
+    }
+    repair.seam = roll_dice(look_.seed, k / 5, 8) < 0.5;
+    repairs_.push_back(repair);
+  }
+  for (std::int64_t k = 0; static_cast<double>(k) * kManholeCell < length; ++k) {
+    const bool here = roll_dice(look_.seed, k, 11) < 0.6;
+    const double s =
+        static_cast<double>(k) * kManholeCell + 2.0 + 23.0 * roll_dice(look_.seed, k, 12);
+    manholes_.emplace_back(here ? s : -1e6, -1.2 + 3.6 * roll_dice(look_.seed, k, 13));
+  }
+  for (std::int64_t k = 0; static_cast<double>(k) * kDashBlock < length; ++k) {
+    dashed_.push_back(terrain_.route().setting.edge_lines || roll_dice(look_.seed, k, 21) < 0.35);
+  }
+}
+
 double GroundShader::repairs(const Here& here) const {
   if (!here.road.valid) return 0.0;
-  constexpr double kCell = 13.0;
-  const auto cell = static_cast<std::int64_t>(std::floor(here.road.s_m / kCell));
+  const std::size_t cell = index_of(here.road.s_m, kRepairCell, repairs_.size());
   double change = 0.0;
-  for (std::int64_t k = cell - 1; k <= cell; ++k) {
-    if (roll_dice(look_.seed, k, 1) > 0.4) continue;
-    const double s0 = static_cast<double>(k) * kCell + kCell * roll_dice(look_.seed, k, 2);
-    const double length = 0.8 + 8.0 * roll_dice(look_.seed, k, 3);
-    const double d0 = -2.4 + 5.5 * roll_dice(look_.seed, k, 4);
-    const double width = 0.5 + 2.0 * roll_dice(look_.seed, k, 5);
-    const double tone = roll_dice(look_.seed, k, 6) < 0.65 ? -0.22 : 0.16;
+  for (std::size_t k = cell > 0 ? cell - 1 : 0; k <= cell; ++k) {
+    const Repair& r = repairs_[k];
+    if (r.length_m <= 0.0 || here.road.s_m > r.s_m + r.length_m + 1.0 ||
+        here.road.s_m < r.s_m - 1.0)
+      continue;
     const auto inside = [&](double grow) {
-      return coverage(here.road.s_m, s0 - grow, s0 + length + grow, here.along_m) *
-             coverage(here.road.d_m, d0 - grow, d0 + width + grow, here.across_m);
+      return coverage(here.road.s_m, r.s_m - grow, r.s_m + r.length_m + grow, here.along_m) *
+             coverage(here.road.d_m, r.d_m - grow, r.d_m + r.width_m + grow, here.across_m);
     };
     const double core = inside(0.0);
-    change +=
-        tone * roll_dice(look_.seed, k, 7) * core - 0.28 * (inside(0.035) - core);  // bitumen seam
+    change += r.tone * core - 0.28 * (inside(0.035) - core);  // bitumen seam
   }
   // A seam between the lanes' two courses, here and there.
   const double seam_d = terrain_.route().setting.dash_offset_m + 0.15;
-  if (roll_dice(look_.seed, cell / 5, 8) < 0.5)
+  if (repairs_[cell].seam)
     change -= 0.3 * coverage(here.road.d_m, seam_d, seam_d + 0.03, here.across_m);
   return change;
 }
@@ -131,12 +162,7 @@ double GroundShader::cracks(const Patch& patch, const Here& here) const {
 
 double GroundShader::manholes(const Here& here) const {
   if (!here.road.valid) return 0.0;
-  constexpr double kCell = 27.0;
-  const auto cell = static_cast<std::int64_t>(std::floor(here.road.s_m / kCell));
-  if (roll_dice(look_.seed, cell, 11) > 0.6) return 0.0;
-  const double s0 =
-      static_cast<double>(cell) * kCell + 2.0 + 23.0 * roll_dice(look_.seed, cell, 12);
-  const double d0 = -1.2 + 3.6 * roll_dice(look_.seed, cell, 13);
+  const auto& [s0, d0] = manholes_[index_of(here.road.s_m, kManholeCell, manholes_.size())];
   const double ds = here.road.s_m - s0;
   const double dd = here.road.d_m - d0;
   if (std::abs(ds) > 2.0 || std::abs(dd) > 2.0) return 0.0;
@@ -160,8 +186,7 @@ double GroundShader::markings(const Here& here) const {
     return coverage(d, at - 0.5 * width, at + 0.5 * width, here.across_m);
   };
   double paint = 0.0;
-  const auto block = static_cast<std::int64_t>(std::floor(s / 70.0));
-  const bool dashed = setting.edge_lines || roll_dice(look_.seed, block, 21) < 0.35;
+  const bool dashed = dashed_[index_of(s, kDashBlock, dashed_.size())];
   if (dashed && setting.dash_offset_m > 0.0) {
     const bool motorway = setting.guard_rail;
     const double dash =

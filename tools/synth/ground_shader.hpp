@@ -1,6 +1,9 @@
 /// Asphalt with wear, patches, cracks, manholes and markings; kerbs, paving, grass.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "tools/synth/ground_ray.hpp"
 #include "tools/synth/surface.hpp"
 #include "tools/synth/terrain.hpp"
@@ -35,9 +38,23 @@ class GroundShader {
   [[nodiscard]] float beside(const Patch& patch, const Footprint& f, const Here& here) const;
   [[nodiscard]] Reflectance wet(const Patch& patch, Reflectance dry) const;
 
+  struct Repair {
+    double s_m = 0.0;
+    double length_m = 0.0;  ///< 0: none here
+    double d_m = 0.0;
+    double width_m = 0.0;
+    double tone = 0.0;
+    bool seam = false;
+  };
+  void plan_details();
+
   const Terrain& terrain_;
   const Textures& textures_;
   GroundLook look_;
+  std::vector<Repair> repairs_;
+  std::vector<std::pair<double, double>>
+      manholes_;  ///< (s, d) per cell, far away when there is none
+  std::vector<bool> dashed_;
 };
 
 }  // namespace plumb::synth

@@ -56,6 +56,7 @@ void FrameRenderer::prepare(double time_s) {
       poses_.push_back(world_.drive.T_map_cam(t));
     }
   }
+  smear_ = pose_at(0, kSlots - 1).t - pose_at(0, 0).t;
   const Se3 T_map_cam = world_.drive.T_map_cam(time_s);
   const Vector3d forward = T_map_cam.R.col(2);
   const double half_view =
@@ -182,7 +183,8 @@ float FrameRenderer::sunlight(const Patch& patch, const Reflectance& surface) co
 FrameRenderer::Sample FrameRenderer::shade_solid(const Ray& ray, const Hit& hit) const {
   const Primitive& solid = solids_[static_cast<std::size_t>(hit.primitive)];
   const Patch patch{ray.origin + hit.t * ray.direction, solid.R_map_local * hit.n_local,
-                    ray.direction, hit.t * pixel_rad_};
+                    ray.direction, hit.t * pixel_rad_,
+                    smear_ - config_.exposure_s * solid.velocity};
   const SolidShader shader(world_.textures);
   Reflectance surface = shader.shade(solid, hit, patch);
   if (surface.n_map.dot(ray.direction) > 0.0) surface.n_map = patch.n_map;
@@ -198,7 +200,7 @@ FrameRenderer::Sample FrameRenderer::shade_solid(const Ray& ray, const Hit& hit)
 
 FrameRenderer::Sample FrameRenderer::shade_ground(const Ray& ray, const GroundHit& hit) const {
   Patch patch{ray.origin + hit.t * ray.direction, Vector3d::UnitZ(), ray.direction,
-              hit.t * pixel_rad_};
+              hit.t * pixel_rad_, smear_};
   if (hit.part == GroundPart::kKerbFace) {
     constexpr double kStep = 0.4;
     const double x = patch.p_map.x();
@@ -300,7 +302,6 @@ int FrameRenderer::samples_wanted(int u, int v) const {
   const int blocks_x = (width + kBlurBlock - 1) / kBlurBlock;
   const float blur =
       blur_px_[static_cast<std::size_t>((v / kBlurBlock) * blocks_x + u / kBlurBlock)];
-  const int for_blur = blur > 0.8F ? std::min(16, static_cast<int>(std::ceil(blur / 0.7F))) : 0;
   const Sample& here = samples_[static_cast<std::size_t>(v * width + u)];
   bool edge = false;
   const auto compare = [&](int nu, int nv) {
@@ -314,7 +315,9 @@ int FrameRenderer::samples_wanted(int u, int v) const {
   compare(u + 1, v);
   compare(u, v - 1);
   compare(u, v + 1);
-  return std::max(for_blur, edge ? config_.edge_samples : 0);
+  // Textures are already averaged over the smear: samples are needed where something ends.
+  if (!edge && blur < 4.0F) return 0;
+  return std::clamp(static_cast<int>(std::ceil(blur / 0.9F)), edge ? config_.edge_samples : 0, 16);
 }
 
 void FrameRenderer::refine(RenderedFrame& out) {

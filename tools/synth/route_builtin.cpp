@@ -99,10 +99,10 @@ void make_schedule(Route& route, const Pace& pace, double duration_s, double fir
 void add_hills(std::vector<Eigen::Vector3d>& line, double amplitude_m, std::uint64_t seed) {
   Random random(hash_keys(seed, 0x4111));
   for (int k = 0; k < 6; ++k) {
-    const double wavelength = 90.0 * std::pow(1.6, k);
+    const double wavelength = 130.0 * std::pow(1.6, k);
     const double heading = random.uniform(0.0, 2.0 * kHalfTurn * 2.0);
     const double phase = random.uniform(0.0, 4.0 * kHalfTurn);
-    const double weight = amplitude_m * 0.16 * std::pow(1.45, k);
+    const double weight = amplitude_m * 0.1 * std::pow(1.75, k);
     const Eigen::Vector2d wave =
         4.0 * kHalfTurn / wavelength * Eigen::Vector2d(std::cos(heading), std::sin(heading));
     for (Eigen::Vector3d& p : line) p.z() += weight * std::sin(wave.dot(p.head<2>()) + phase);

@@ -17,6 +17,8 @@ struct Patch {
   Eigen::Vector3d n_map;  ///< unit, towards the viewer's side
   Eigen::Vector3d view;   ///< unit, from the eye to the point
   double width_m = 0.01;  ///< one pixel across the view
+  Eigen::Vector3d smear =
+      Eigen::Vector3d::Zero();  ///< [m] way of the surface past the eye during the exposure
 };
 
 struct Reflectance {
@@ -46,7 +48,10 @@ struct Textures {
   const Eigen::Vector3d along = patch.view - facing * patch.n_map;
   const double norm = along.norm();
   const double scale = norm > 1e-9 ? length / norm : 0.0;
-  return {scale * along.dot(ex), scale * along.dot(ey), patch.width_m};
+  const double sense =
+      along.dot(patch.smear) < 0.0 ? -1.0 : 1.0;  // lengths add, whichever way we move
+  return {scale * along.dot(ex) + sense * patch.smear.dot(ex),
+          scale * along.dot(ey) + sense * patch.smear.dot(ey), patch.width_m};
 }
 
 /// Share of [x - width/2, x + width/2] that lies in [low, high].
