@@ -159,7 +159,7 @@ class Publisher {
  private:
   Bus& bus_;
   const Channel& channel_;
-  Counters* counters_;
+  Counters* counters_ = nullptr;
   std::vector<std::uint8_t> buffer_;
 };
 

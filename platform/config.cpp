@@ -46,16 +46,23 @@ struct Leaf {
 };
 
 // Every value, and every table without values, with its dotted key.
-void collect(const toml::table& table, const std::string& prefix, std::vector<Leaf>* leaves) {
-  for (const auto& [name, node] : table) {
-    const std::string key = prefix + std::string(name.str());
-    const toml::table* inner = node.as_table();
-    if (inner != nullptr && !inner->empty()) {
-      collect(*inner, key + ".", leaves);
-    } else {
-      leaves->push_back({key, node.source().begin.line, inner != nullptr});
+std::vector<Leaf> leaves_of(const toml::table& root) {
+  std::vector<Leaf> leaves;
+  std::vector<std::pair<std::string, const toml::table*>> open = {{"", &root}};
+  while (!open.empty()) {
+    const auto [prefix, table] = open.back();
+    open.pop_back();
+    for (const auto& [name, node] : *table) {
+      const std::string key = prefix + std::string(name.str());
+      const toml::table* inner = node.as_table();
+      if (inner != nullptr && !inner->empty()) {
+        open.emplace_back(key + ".", inner);
+      } else {
+        leaves.push_back({key, node.source().begin.line, inner != nullptr});
+      }
     }
   }
+  return leaves;
 }
 
 }  // namespace
@@ -154,8 +161,7 @@ void ConfigFile::read(const char* key, std::string& value,
 }
 
 void ConfigFile::refuse_unread() const {
-  std::vector<Leaf> leaves;
-  collect(impl_->root, "", &leaves);
+  std::vector<Leaf> leaves = leaves_of(impl_->root);
   std::stable_sort(leaves.begin(), leaves.end(),
                    [](const Leaf& a, const Leaf& b) { return a.line < b.line; });
   for (const Leaf& leaf : leaves) {

@@ -20,7 +20,7 @@
 #include "platform/health.hpp"
 #include "platform/stage_timer.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): a library's name
 class App;
 }
 

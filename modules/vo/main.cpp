@@ -45,6 +45,7 @@ class VoProcess {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): add_option throws for a name given twice, and for nothing else
 int main(int argc, char** argv) {
   plumb::Process process(
       {"vo", "Monocular visual odometry: CAMERA -> VO_MOTION", plumb::kHealthVo});
