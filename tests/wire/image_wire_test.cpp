@@ -34,9 +34,9 @@ image_t grey_message() {
 }
 
 image_t jpeg_message() {
-  const cv::Mat image(kHeight, kWidth, CV_8UC1, pattern().data());
+  Bytes pixels = pattern();
   Bytes jpeg;
-  cv::imencode(".jpg", image.clone(), jpeg);
+  cv::imencode(".jpg", cv::Mat(kHeight, kWidth, CV_8UC1, pixels.data()), jpeg);
   image_t message{};
   to_wire_jpeg(123'456, 42, kWidth, kHeight, jpeg, &message);
   return message;
