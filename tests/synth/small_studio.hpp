@@ -5,7 +5,8 @@
 
 namespace plumb::synth::test {
 
-/// A drive of `frames` frames at a quarter of KITTI's resolution, no mount angles, noise, blur or traffic.
+/// A drive of `frames` frames at a quarter of KITTI's resolution, no mount angles, noise, blur or
+/// traffic.
 inline SynthConfig small_config(const char* route, int frames) {
   SynthConfig config;
   config.route = route;

@@ -30,10 +30,11 @@ struct Spring {
   }
 };
 
-/// Unevenness under one wheel track: slope is white (ISO 8608 falls with the square of frequency), wandering bounded.
+/// Unevenness under one wheel track: slope is white (ISO 8608 falls with the square of frequency),
+/// wandering bounded.
 std::vector<double> rough_track(double length_m, double scale, const std::vector<double>& shared,
                                 Random& random) {
-  constexpr double kSlopeSigma = 0.019;  // per 5 cm: Gd(n0) = 92e-6 m3, a little worse than class B
+  constexpr double kSlopeSigma = 0.015;  // per 5 cm: Gd(n0) = 57e-6 m3, class B
   constexpr double kLeak = kRoughStep / 7.0;
   std::vector<double> z{0.0};
   const auto samples = static_cast<std::size_t>(length_m / kRoughStep) + 2;

@@ -87,7 +87,7 @@ double GroundShader::asphalt(const Patch& patch, const Footprint& f, const Here&
     tracks = -0.05 * std::exp(-off * off);
   }
   const double k = look_.road_contrast;
-  double albedo = kAsphalt * (1.0 + k * (0.22 * grain + 0.055 * fine + 0.07 * coarse + tracks));
+  double albedo = kAsphalt * (1.0 + k * (0.28 * grain + 0.07 * fine + 0.07 * coarse + tracks));
   albedo *= 1.0 + std::min(1.0, 2.0 * k) * (repairs(here) + manholes(here));
   albedo *= 1.0 - std::min(1.0, k) * cracks(patch, here);
   // Dirt gathers in the gutter.
@@ -232,7 +232,7 @@ float GroundShader::beside(const Patch& patch, const Footprint& f, const Here& h
       0.23 * x, 0.23 * y, Footprint{0.23 * f.axis_x_m, 0.23 * f.axis_y_m, 0.23 * f.minor_m}));
   if (lawn < 0.1 || setting.guard_rail) {
     return static_cast<float>(
-        std::max(0.02, 0.105 * (1.0 + 0.35 * tuft + 0.2 * grain + 0.16 * fine)));
+        std::max(0.02, 0.105 * (1.0 + 0.5 * tuft + 0.3 * grain + 0.2 * fine)));
   }
   return static_cast<float>(std::max(0.03, 0.2 * (1.0 + 0.16 * grain + 0.12 * fine + 0.08 * tuft)));
 }

@@ -13,7 +13,8 @@ constexpr int kMaxTaps = 6;
 
 double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
 
-/// Adds white noise of `cells` x `cells`, enlarged smoothly to `size`, with standard deviation `weight`.
+/// Adds white noise of `cells` x `cells`, enlarged smoothly to `size`, with standard deviation
+/// `weight`.
 void add_octave(std::vector<double>& sum, int size, int cells, double weight, Random& random) {
   const auto n = static_cast<std::size_t>(cells);
   std::vector<double> white(n * n);

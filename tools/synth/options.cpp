@@ -87,6 +87,10 @@ void declare_camera(CLI::App& app, Options& o) {
   app.add_option("--camera-height", c.drive.mount.height_m, "m above the road")
       ->check(CLI::Range(0.3, 4.0))
       ->capture_default_str();
+  app.add_option("--stated-height", c.stated_height_m,
+                 "height that calib.txt claims, m; 0 = the true one")
+      ->check(CLI::Range(0.0, 4.0))
+      ->capture_default_str();
   app.add_option("--mount-pitch", o.mount_pitch_deg,
                  "degrees nose down; default from the seed, sd 0.5")
       ->check(CLI::Range(-15.0, 15.0));
@@ -96,6 +100,10 @@ void declare_camera(CLI::App& app, Options& o) {
   app.add_option("--mount-yaw", o.mount_yaw_deg,
                  "degrees to the left; default from the seed, sd 0.3")
       ->check(CLI::Range(-15.0, 15.0));
+}
+
+void declare_sensor(CLI::App& app, Options& o) {
+  SynthConfig& c = o.config;
   app.add_option("--residual-k1", c.render.camera.residual_k1,
                  "radial distortion left in the images")
       ->check(CLI::Range(-0.1, 0.1))
@@ -175,6 +183,7 @@ void declare(CLI::App& app, Options& o) {
   app.add_flag("--quiet", o.quiet, "no progress");
   declare_drive(app, o);
   declare_camera(app, o);
+  declare_sensor(app, o);
   declare_weather(app, o);
 }
 

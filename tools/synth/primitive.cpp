@@ -87,7 +87,8 @@ bool fence_is_open(const Vector3d& p, double footprint_m) {
   return !rail && phase > 0.55;
 }
 
-/// Nested shells fixed in the solid, sparse outside and dense inside: ragged from every side, the same from all.
+/// Nested shells fixed in the solid, sparse outside and dense inside: ragged from every side, the
+/// same from all.
 struct Shell {
   double radius;
   float bias;

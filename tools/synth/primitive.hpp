@@ -1,4 +1,5 @@
-/// Convex solids and leafy ellipsoids that everything beside the road is made of, and rays against them.
+/// Convex solids and leafy ellipsoids that everything beside the road is made of, and rays against
+/// them.
 ///
 /// Frames  local: the solid's own axes, z up; map. R_map_local, centre in map.
 #pragma once
@@ -76,8 +77,8 @@ struct Hit {
   Eigen::Vector3d n_local = Eigen::Vector3d::Zero();
 };
 
-/// The nearest hit in (0, hit.t); false leaves `hit` as it was. `pixel_rad` is the angle of one pixel: holes smaller
-/// than it close. `noise` shapes the holes.
+/// The nearest hit in (0, hit.t); false leaves `hit` as it was. `pixel_rad` is the angle of one
+/// pixel: holes smaller than it close. `noise` shapes the holes.
 bool intersect(const Primitive& solid, const Ray& ray, double pixel_rad, const VolumeNoise& noise,
                Hit& hit);
 

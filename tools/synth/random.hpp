@@ -1,4 +1,5 @@
-/// Counter-based random numbers: a value depends on its keys only, never on the order or the thread that asks.
+/// Counter-based random numbers: a value depends on its keys only, never on the order or the thread
+/// that asks.
 ///
 /// Source  the finaliser of splitmix64.
 #pragma once

@@ -1,6 +1,8 @@
-/// Where the drive goes: centre of the driven lane, the road's cross-section, and when the vehicle is where.
+/// Where the drive goes: centre of the driven lane, the road's cross-section, and when the vehicle
+/// is where.
 ///
-/// Frames  map: x east, y north, z up, metres. Lateral offsets count to the left of the direction of travel.
+/// Frames  map: x east, y north, z up, metres. Lateral offsets count to the left of the direction
+///         of travel.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,12 +22,12 @@ struct Setting {
   double sidewalk_m = 2.2;      ///< paved width beside the road
   double setback_m = 5.0;       ///< nearest wall to the road edge
   double house_ratio = 0.85;    ///< share of plots with a house
-  double tree_ratio = 0.4;      ///< share of tree places taken
+  double tree_ratio = 0.5;      ///< share of tree places taken
   double parked_ratio = 0.35;   ///< share of parking places taken
   double dash_offset_m = 1.75;  ///< lane line to the left of the lane's centre; 0 = none
   double side_road_m = 90.0;    ///< mean distance between side roads; 0 = none
   double hill_m = 1.5;          ///< amplitude of the terrain
-  double roughness = 1.0;       ///< 1 = a used road, about ISO 8608 class B
+  double roughness = 1.0;       ///< 1 = ISO 8608 class B
   bool edge_lines = false;
   bool guard_rail = false;
 };
@@ -82,13 +84,15 @@ struct Route {
 [[nodiscard]] Route make_builtin_route(const std::string& name, double duration_s,
                                        std::uint64_t seed);
 
-/// The route along KITTI pose rows [first, last] taken every 1 / source_rate_hz seconds. `camera_ahead_m` is the
-/// camera's place before the rear axle. Throws std::invalid_argument, naming the file and line, for what cannot be read.
+/// The route along KITTI pose rows [first, last] taken every 1 / source_rate_hz seconds.
+/// `camera_ahead_m` is the camera's place before the rear axle. Throws std::invalid_argument,
+/// naming the file and line, for what cannot be read.
 [[nodiscard]] Route make_pose_route(const std::filesystem::path& file, int first, int last,
                                     double source_rate_hz, double camera_ahead_m,
                                     std::uint64_t seed);
 
-/// Shared by both makers: points every kStep along a polyline with heading and curvature from its smoothed shape.
+/// Shared by both makers: points every kStep along a polyline with heading and curvature from its
+/// smoothed shape.
 void resample(const std::vector<Eigen::Vector3d>& polyline, double smoothing_m, Route& route);
 
 /// Continues the route straight on at both ends, so that there is a road to see.

@@ -44,7 +44,8 @@ struct Pace {
   std::vector<Stop> stops;
 };
 
-/// Highest speed at each point: cruise, lateral acceleration, and what braking for the next limit allows.
+/// Highest speed at each point: cruise, lateral acceleration, and what braking for the next limit
+/// allows.
 std::vector<double> speed_limits(const Route& route, const Pace& pace) {
   std::vector<double> v;
   for (const RoutePoint& p : route.points) {

@@ -86,7 +86,8 @@ std::vector<std::pair<std::size_t, std::size_t>> revisits(
   return pairs;
 }
 
-/// Truth heights drift by metres between passes; spreads the difference so that a place has one height.
+/// Truth heights drift by metres between passes; spreads the difference so that a place has one
+/// height.
 void make_heights_consistent(std::vector<RoutePoint>& points) {
   const auto stride = static_cast<std::size_t>(kNodeStep / Route::kStep);
   std::vector<Eigen::Vector3d> nodes;

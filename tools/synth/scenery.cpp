@@ -181,12 +181,13 @@ class Gardener {
     const double crown = 0.5 * (height_m - trunk);
     const int clumps = conifer ? 3 : 5 + random_.below(4);
     for (int i = 0; i < clumps; ++i) {
-      const double up =
-          conifer ? trunk + crown * (0.3 + 0.6 * i) : trunk + crown * random_.uniform(0.35, 1.55);
-      const double wide = conifer ? crown * (0.62 - 0.17 * i) : crown * random_.uniform(0.38, 0.68);
+      const double up = conifer ? trunk + crown * (0.3 + 0.6 * i)
+                                : trunk + crown * (i == 0 ? 0.9 : random_.uniform(0.45, 1.4));
+      const double wide = conifer ? crown * (0.62 - 0.17 * i)
+                                  : crown * (i == 0 ? 0.75 : random_.uniform(0.4, 0.65));
       const double tall = conifer ? crown * 0.6 : wide * random_.uniform(0.7, 1.0);
       const double turn = random_.uniform(0.0, 6.28);
-      const double out = conifer ? 0.0 : crown * random_.uniform(0.1, 0.75);
+      const double out = conifer || i == 0 ? 0.0 : crown * random_.uniform(0.15, 0.6);
       Primitive leaves = solid(Shape::kLeaves, Material::kLeaves,
                                p + out * Vector2d(std::cos(turn), std::sin(turn)), turn,
                                {wide, wide * 0.95, tall}, up - tall);
@@ -217,7 +218,7 @@ class Gardener {
 
   void plant_posts(double side) {
     const double length = terrain_.route().length_m();
-    for (double s = random_.uniform(0.0, 20.0); s < length; s += random_.uniform(14.0, 38.0)) {
+    for (double s = random_.uniform(0.0, 20.0); s < length; s += random_.uniform(10.0, 28.0)) {
       const Place place = beside(s, side, random_.uniform(0.5, 0.8));
       if (terrain_.edge_distance(place.p.x(), place.p.y()) < 0.4) continue;
       const bool lamp = random_.chance(0.5);

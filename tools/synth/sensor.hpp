@@ -9,8 +9,8 @@
 namespace plumb::synth {
 
 struct SensorConfig {
-  double blur_px = 0.55;      ///< sigma of the lens' point spread
-  double gain = 300.0;        ///< grey levels per unit of radiance
+  double blur_px = 0.5;       ///< sigma of the lens' point spread
+  double gain = 330.0;        ///< grey levels per unit of radiance
   double read_noise = 0.8;    ///< grey levels
   double shot_noise = 0.008;  ///< variance per grey level
   double vignetting = 0.12;   ///< loss of light in the corners
@@ -28,7 +28,8 @@ class Sensor {
   /// The exposure's factor at a time.
   [[nodiscard]] double exposure(double time_s) const;
 
-  /// Develops a frame; `light` scales all of it (a tunnel, a covered lens). The noise depends on `frame` only.
+  /// Develops a frame; `light` scales all of it (a tunnel, a covered lens). The noise depends on
+  /// `frame` only.
   void develop(const RenderedFrame& in, double time_s, std::uint64_t frame, double light,
                std::vector<std::uint8_t>& out);
 

@@ -1,4 +1,5 @@
-/// Which solids can stand between a point and a light at infinity: bins across the light's direction.
+/// Which solids can stand between a point and a light at infinity: bins across the light's
+/// direction.
 ///
 /// Frames  map. Memory  rebuilt by build(); queries allocate nothing.
 #pragma once
@@ -16,7 +17,8 @@ class ShadowGrid {
   /// @pre to_light is a unit vector; `solids` outlives the grid.
   void build(const std::vector<Primitive>& solids, const Eigen::Vector3d& to_light, double cell_m);
 
-  /// True when a solid hides the light from the point. `softness_rad` closes holes smaller than the light's blur.
+  /// True when a solid hides the light from the point. `softness_rad` closes holes smaller than the
+  /// light's blur.
   [[nodiscard]] bool hidden(const Eigen::Vector3d& p_map, double softness_rad,
                             const VolumeNoise& noise) const;
 

@@ -93,9 +93,9 @@ void SolidShader::facade(const Primitive& solid, const Hit& hit, const Face& fac
                          Reflectance& out) const {
   const double shift = 0.013 * (solid.seed % 4001U);
   const double plaster =
-      0.035 * static_cast<double>(textures_.grain.sample(face.u_m + shift, face.v_m, face.pixel)) +
-      0.045 * static_cast<double>(
-                  textures_.stains.sample(face.u_m + shift, 0.5 * face.v_m, face.pixel));
+      0.05 * static_cast<double>(textures_.grain.sample(face.u_m + shift, face.v_m, face.pixel)) +
+      0.06 * static_cast<double>(
+                 textures_.stains.sample(face.u_m + shift, 0.5 * face.v_m, face.pixel));
   scale(out, 1.0 + plaster);
   if (hit.face >= 4) return;
   const double up = face.v_m - 1.4;  // the wall starts below the ground
@@ -149,7 +149,7 @@ void SolidShader::brick(const Face& face, Reflectance& out) const {
               0.5);
   const double mortar = std::max(stripe(face.v_m, 0.083, 0.0, 0.012, face.reach_v),
                                  stripe(u, 0.25, 0.0, 0.012, face.reach_u));
-  scale(out, 1.0 + 0.35 * tone +
+  scale(out, 1.0 + 0.5 * tone +
                  0.1 * static_cast<double>(textures_.grain.sample(face.u_m, face.v_m, face.pixel)));
   blend(out, mortar, 0.35);
 }
@@ -190,7 +190,7 @@ void SolidShader::leaves(const Primitive& solid, const Hit& hit, const Patch& pa
   if (patch.width_m < 0.2) tone += 1.1 * octave(7.9) * fade(0.2);
   if (patch.width_m < 0.09) tone += 1.0 * octave(19.0) * fade(0.09);
   const double depth = hit.face == 0 ? 1.0 : hit.face == 1 ? 0.72 : 0.45;
-  scale(out, depth * std::max(0.15, 1.0 + 1.5 * tone));
+  scale(out, depth * std::max(0.15, 1.0 + 1.9 * tone));
   out.openness = static_cast<float>(depth);
   // Leaves face everywhere: bend the normal by the noise, or crowns look like balls.
   const Vector3d wobble(octave(3.7), octave(4.1), octave(4.9));
@@ -212,7 +212,7 @@ void SolidShader::hedge(const Hit& hit, const Patch& patch, const Primitive& sol
   double tone = 0.8 * octave(2.1) * fade(0.3);
   if (patch.width_m < 0.1) tone += 1.2 * octave(7.0) * fade(0.1);
   if (patch.width_m < 0.045) tone += 1.1 * octave(15.0) * fade(0.045);
-  scale(out, std::max(0.15, 1.0 + 1.4 * tone));
+  scale(out, std::max(0.15, 1.0 + 1.8 * tone));
   out.n_map = (patch.n_map + 1.5 * Vector3d(octave(3.3), octave(4.3), octave(5.1))).normalized();
 }
 

@@ -1,7 +1,7 @@
 /// Numbers that say how a drive looks to an estimator, for comparing rendered with real ones.
 ///
-/// Units  grey levels and pixels. Road = the part of the image within 1.65 m of the camera's vertical plane and
-///        nearer than 30 m, for a level camera 1.65 m above a plane.
+/// Units  grey levels and pixels. Road = the part of the image within 1.65 m of the camera's
+///        vertical plane and nearer than 30 m, for a level camera 1.65 m above a plane.
 #pragma once
 
 #include <filesystem>
@@ -31,7 +31,8 @@ struct DriveStats {
   double survive_10_percent = 0.0;
 };
 
-/// Measures a folder in KITTI layout (image_0/*.png, calib.txt). Throws std::invalid_argument, naming what is missing.
+/// Measures a folder in KITTI layout (image_0/*.png, calib.txt). Throws std::invalid_argument,
+/// naming what is missing.
 [[nodiscard]] DriveStats measure_drive(const std::filesystem::path& folder);
 
 /// A table with one row per drive.

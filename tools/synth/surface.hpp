@@ -1,6 +1,7 @@
 /// What a pixel sees of a surface and how that surface answers light.
 ///
-/// Frames  map. Reflectance and radiance are relative: 1 = a white sheet facing a light of strength 1.
+/// Frames  map. Reflectance and radiance are relative: 1 = a white sheet facing a light of strength
+///         1.
 #pragma once
 
 #include <Eigen/Core>

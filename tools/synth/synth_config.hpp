@@ -41,6 +41,7 @@ struct SynthConfig {
   int frames = 200;
   std::uint64_t seed = 1;
   double rate_hz = 10.0;
+  double stated_height_m = 0.0;  ///< camera height that calib.txt claims; 0 = the true one
   bool flat = false;
   int bumps = 0;
   DriveConfig drive;

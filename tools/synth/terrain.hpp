@@ -1,4 +1,5 @@
-/// The ground: a smooth height field with the road's crown on it, and how far each place is from the road.
+/// The ground: a smooth height field with the road's crown on it, and how far each place is from
+/// the road.
 ///
 /// Frames  map: x east, y north, z up, metres.
 /// Rays    o + t d with d of any length; t counts in lengths of d.

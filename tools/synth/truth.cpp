@@ -29,7 +29,8 @@ PlaneTruth fit(const std::vector<Vector3d>& points) {
   return out;
 }
 
-/// Corners of a convex solid: every three planes meet somewhere; the meeting points that satisfy all planes count.
+/// Corners of a convex solid: every three planes meet somewhere; the meeting points that satisfy
+/// all planes count.
 std::vector<Vector3d> convex_corners(const Primitive& solid) {
   std::vector<Vector3d> out;
   const std::size_t n = solid.num_planes;

@@ -20,7 +20,8 @@ struct PlaneTruth {
   double rms_m = 0.0;
 };
 
-/// Least-squares plane of the road 5..20 m ahead of the camera, within 1.8 m of its vertical plane, on a 0.25 m grid.
+/// Least-squares plane of the road 5..20 m ahead of the camera, within 1.8 m of its vertical plane,
+/// on a 0.25 m grid.
 /// Where less than a third of that is road (sharp bends), the land at road level counts as well.
 [[nodiscard]] PlaneTruth road_plane(const Terrain& terrain, const Se3& T_map_cam);
 
@@ -40,7 +41,8 @@ struct Label {
   double alpha_rad = 0.0;
 };
 
-/// Labels of every object that shows at least `min_pixels`. `solids` are the frame's visible solids.
+/// Labels of every object that shows at least `min_pixels`. `solids` are the frame's visible
+/// solids.
 [[nodiscard]] std::vector<Label> make_labels(const RenderedFrame& frame,
                                              const std::vector<Primitive>& solids,
                                              const CameraModel& camera, const Se3& T_map_cam,

@@ -15,8 +15,8 @@ struct ProfilePoint {
   double z;
 };
 
-/// Extrudes a convex side profile (counted counter-clockwise seen from the right) across the width; the walls lean in
-/// by `lean` per metre of height.
+/// Extrudes a convex side profile (counted counter-clockwise seen from the right) across the width;
+/// the walls lean in by `lean` per metre of height.
 Primitive extrude(const std::vector<ProfilePoint>& profile, double half_width, double lean,
                   const ObjectPose& pose) {
   Primitive s;

@@ -1,6 +1,7 @@
 /// Renders a drive into a folder in KITTI odometry layout, with its truth.
 ///
-/// Threads frames are handed out one by one to `num_threads` workers; the files do not depend on how many.
+/// Threads frames are handed out one by one to `num_threads` workers; the files do not depend on
+///         how many.
 #pragma once
 
 #include <atomic>
@@ -16,14 +17,15 @@ struct WriteResult {
   double seconds = 0.0;  ///< rendering time, wall clock
 };
 
-/// Writes image_0/, calib.txt, times.txt, poses.txt, gt_ground_plane.txt, vehicle.txt and label_02.txt. Stops early and
-/// keeps what is complete when `stop` becomes true. `progress` is called with the number of finished frames.
+/// Writes image_0/, calib.txt, times.txt, poses.txt, gt_ground_plane.txt, vehicle.txt and
+/// label_02.txt. Stops early and keeps what is complete when `stop` becomes true. `progress` is
+/// called with the number of finished frames.
 /// Throws std::runtime_error, naming the file, when something cannot be written.
 WriteResult write_drive(const Studio& studio, int num_threads, const std::atomic<bool>& stop,
                         const std::function<void(int)>& progress);
 
-/// Throws UsageError when `folder` holds something and `force` is not set; creates it otherwise. With `force`, only
-/// files of a former drive are removed.
+/// Throws UsageError when `folder` holds something and `force` is not set; creates it otherwise.
+/// With `force`, only files of a former drive are removed.
 void prepare_folder(const std::filesystem::path& folder, bool force);
 
 }  // namespace plumb::synth
