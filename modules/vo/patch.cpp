@@ -22,6 +22,12 @@ int bilinear_fixed(const ImageView& image, int u_fixed, int v_fixed) {
   return (top << 8) + fv * (bottom - top);
 }
 
+// False for NaN and for what an int cannot hold: a cast of those is undefined.
+bool near_image(const ImageView& image, const Eigen::Vector2f& px) {
+  return px.x() >= 0.0F && px.y() >= 0.0F && px.x() <= static_cast<float>(image.width_px) &&
+         px.y() <= static_cast<float>(image.height_px);
+}
+
 [[gnu::always_inline]] inline Float8 lerp_bytes(const std::uint8_t* p, float f) {
   const Float8 left = load_bytes(p);
   return left + f * (load_bytes(p + 1) - left);
@@ -38,6 +44,7 @@ template <int kHalf>
 
 template <int kHalf>
 bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px) {
+  if (!near_image(image, px)) return false;
   const int u0 = static_cast<int>(std::floor(px.x())) - kHalf - 1;
   const int v0 = static_cast<int>(std::floor(px.y())) - kHalf - 1;
   if (u0 < 0 || v0 < 0 || u0 + kRawSize >= image.width_px || v0 + kRawSize >= image.height_px) {
@@ -167,6 +174,7 @@ Alignment Patch<kHalf>::align(const ImageView& image, const Eigen::Vector2f& sta
   Eigen::Vector2f px = start;
   float ncc = -1.0F;
   for (int i = 0; i < limits.max_iterations; ++i) {
+    if (!near_image(image, px)) return result;
     const float u = std::floor(px.x());
     const float v = std::floor(px.y());
     const int u0 = static_cast<int>(u) - kHalf;

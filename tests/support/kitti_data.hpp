@@ -20,6 +20,7 @@ inline std::filesystem::path kitti_sequence(const std::string& name) {
 }
 
 /// What a test prints when it skips for want of data.
-inline constexpr const char* kNoKitti = "real KITTI frames are not here: set PLUMBLINE_DATA to run this test";
+inline constexpr const char* kNoKitti =
+    "real KITTI frames are not here: set PLUMBLINE_DATA to run this test";
 
 }  // namespace plumb::test

@@ -14,8 +14,8 @@ constexpr int kHeight = 120;
 /// A smooth texture, sampled wherever a warp says.
 struct Texture {
   static double at(double u, double v) {
-    return 120.0 + 30.0 * std::sin(0.31 * u + 0.12 * v) + 25.0 * std::sin(0.17 * u - 0.41 * v) +
-           20.0 * std::sin(0.05 * u + 0.07 * v + 1.0);
+    return 125.0 + 30.0 * std::sin(0.31 * u + 0.12 * v) + 25.0 * std::sin(0.17 * u - 0.41 * v) +
+           32.0 * std::sin(0.09 * u + 0.03 * v + 1.0) + 32.0 * std::sin(0.02 * u - 0.10 * v);
   }
 };
 

@@ -12,7 +12,8 @@ namespace plumb {
 
 class CsvTable {
  public:
-  /// Throws InputError with file and line when the file is empty or a row has too few or too many cells.
+  /// Throws InputError with file and line when the file is empty or a row has too few or too many
+  /// cells.
   explicit CsvTable(std::filesystem::path path);
 
   /// Throws InputError when one of `columns` is missing.
