@@ -24,6 +24,8 @@ constexpr double kPointsLnHeightStd = 0.04;
 constexpr double kPointsHalfTrust =
     10.0;  // inliers at which the variance has halved towards its floor
 constexpr double kTravelStd = 0.3 * kDegree;
+// Below this correlation noise rules the picture, or part of it is not road: variances grow with its fourth power.
+constexpr double kSureCorrelation = 0.8;
 // Images nearer together than this see the same road again; their errors are the same errors.
 constexpr double kIndependentStepRatio = 0.6;
 
@@ -50,7 +52,8 @@ Eigen::Matrix3d FloorCovariance::dense(const DenseObservation& dense,
   cov(0, 0) += kDenseTiltFloorStd * kDenseTiltFloorStd;
   cov(1, 1) += kDenseTiltFloorStd * kDenseTiltFloorStd;
   cov(2, 2) += kDenseLnHeightFloorStd * kDenseLnHeightFloorStd;
-  return repetition(context) * cov;
+  const double doubt = kSureCorrelation / std::clamp(dense.ncc, 0.1, kSureCorrelation);
+  return repetition(context) * doubt * doubt * doubt * doubt * cov;
 }
 
 double FloorCovariance::points(const PointsObservation& points, const CueContext& context) const {

@@ -1,6 +1,7 @@
 #include "modules/ground/ground.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,7 +25,10 @@ constexpr double kShortestChordRatio = 0.25;
 // Points nearer to the horizon than this (y/z) are too far to help.
 constexpr double kMinPointRaySlope = 0.028;
 
-constexpr double kLeastDenseQuality = 0.8;
+// A start from one sight of the road wants a clear one; a running filter, or several sights that agree, less.
+constexpr double kStartDenseQuality = 0.8;
+constexpr double kLeastDenseQuality = 0.4;
+constexpr double kAgreeLnHeight = 0.03;
 constexpr int kLeastPoints = 4;
 constexpr int kLeastPointsToStart = 8;
 
@@ -32,6 +36,10 @@ constexpr int kLeastPointsToStart = 8;
 constexpr double kSweepSettled = 0.2;
 constexpr double kSweepWide = 0.45;
 constexpr double kSettledLnStd = 0.05;
+
+// Steps per camera height that a start tries when the road points give no height, each with the wide sweep around it:
+// at 1.65 m and 10 images/s from 1.3 to 60 m/s.
+constexpr std::array<double, 6> kStartSteps{0.12, 0.26, 0.5, 0.95, 1.7, 3.0};
 
 double height_m_of(const GroundConfig& config, const CameraModel& camera) {
   return camera.camera_height_m > 0.0 ? camera.camera_height_m : config.camera_height_m;
@@ -61,6 +69,7 @@ struct GroundEstimator::Impl {
   bool prepare_plane(const VoOutput& vo);
   void measure_dense(const VoOutput& vo);
   void measure_points(const VoOutput& vo);
+  bool search_start(const VoOutput& vo);
   void fuse();
   void start_filter();
   void write_cues();
@@ -147,8 +156,11 @@ void GroundEstimator::Impl::follow_scale_epoch(const VoOutput& vo) {
 }
 
 void GroundEstimator::Impl::measure_cues(const VoOutput& vo, StageProbe& probe) {
-  const bool prepared = prepare_plane(vo);
+  bool prepared = prepare_plane(vo);
   if (prepared) measure_dense(vo);
+  if (!filter.started() && frame.dense_status != CueStatus::kUsed && search_start(vo)) {
+    prepared = true;
+  }
   probe.mark("dense");
   if (prepared) measure_points(vo);
   probe.mark("points");
@@ -198,7 +210,8 @@ void GroundEstimator::Impl::measure_dense(const VoOutput& vo) {
   const DenseRequest request{frame.normal_cam, frame.height, settled ? kSweepSettled : kSweepWide,
                              road_shape()};
   frame.dense = dense_cue.measure(*frame.image, pairs, request);
-  const bool good = frame.dense.ok && covariance.dense_quality(frame.dense) >= kLeastDenseQuality;
+  const double least = filter.started() ? kLeastDenseQuality : kStartDenseQuality;
+  const bool good = frame.dense.ok && covariance.dense_quality(frame.dense) >= least;
   frame.dense_status = good ? CueStatus::kUsed : CueStatus::kFailed;
 }
 
@@ -210,6 +223,41 @@ void GroundEstimator::Impl::measure_points(const VoOutput& vo) {
   if (frame.points.num_candidates == 0) return;
   const bool good = frame.points.ok && frame.points.num_inliers >= kLeastPoints;
   frame.points_status = good ? CueStatus::kUsed : CueStatus::kFailed;
+}
+
+/// At high speed VO may hold on to far points alone, and then no road point tells the height at which the dense cue
+/// starts. The road itself does: the height that most plausible ones end at, if at least two of them do.
+bool GroundEstimator::Impl::search_start(const VoOutput& vo) {
+  if (vo.status != VoStatus::kOk || !frame.travel.valid || frame.image == nullptr) return false;
+  const Frame before = frame;
+  std::array<DenseObservation, kStartSteps.size()> seen;
+  for (std::size_t i = 0; i < kStartSteps.size(); ++i) {
+    frame.height = frame.travel.step / kStartSteps[i];
+    if (frame.travel.chord_length <= kShortestChordRatio * frame.height) continue;
+    measure_dense(vo);
+    if (covariance.dense_quality(frame.dense) >= kLeastDenseQuality) seen[i] = frame.dense;
+  }
+  int most = 1;
+  for (const DenseObservation& one : seen) {
+    if (!one.ok) continue;
+    const auto agrees = [&one](const DenseObservation& other) {
+      return other.ok && std::abs(std::log(other.q.norm() / one.q.norm())) < kAgreeLnHeight;
+    };
+    const auto num = static_cast<int>(std::count_if(seen.begin(), seen.end(), agrees));
+    if (num <= most) continue;
+    most = num;
+    frame.dense = one;
+  }
+  if (most < 2) {
+    frame = before;
+    return false;
+  }
+  frame.height = 1.0 / frame.dense.q.norm();
+  frame.context = {std::abs(frame.travel.curvature) * frame.height,
+                   frame.travel.step / frame.height};
+  frame.dense_status = CueStatus::kUsed;
+  frame.searched = true;
+  return true;
 }
 
 /// First estimate: the dense cue's, else that of many agreeing points.

@@ -101,6 +101,21 @@ TEST(GroundEstimator, WorksOnPointsWhenImagesAreMissing) {
   }
 }
 
+// At high speed VO may track nothing nearby: the road's picture alone has to start the scale.
+TEST(GroundEstimator, StartsFromTheRoadAloneWhenNoPointsLieOnIt) {
+  Rehearsal run;
+  for (int k = 0; k < 36; ++k) {
+    VoOutput vo;
+    test::script_vo(footage().poses, k, run.script, &vo);
+    vo.road_points.clear();
+    const GroundOutput& out = run.step(vo, k);
+    EXPECT_NE(out.plane.cues[kCuePoints].status, CueStatus::kUsed);
+    if (k < 4) continue;
+    ASSERT_EQ(out.plane.status, GroundStatus::kOk) << "frame " << k;
+    EXPECT_NEAR(run.scale_error(out), 0.0, k < 12 ? 0.04 : 0.015) << "frame " << k;
+  }
+}
+
 TEST(GroundEstimator, HoldsThePlaneWithNeitherImageNorPoints) {
   Rehearsal run;
   for (int k = 0; k < 20; ++k) run.step(k);
