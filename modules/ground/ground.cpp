@@ -234,6 +234,7 @@ bool GroundEstimator::Impl::search_start(const VoOutput& vo) {
   for (std::size_t i = 0; i < kStartSteps.size(); ++i) {
     frame.height = frame.travel.step / kStartSteps[i];
     if (frame.travel.chord_length <= kShortestChordRatio * frame.height) continue;
+    frame.dense = {};  // a height without a pair of images must not show the last one's sight
     measure_dense(vo);
     if (covariance.dense_quality(frame.dense) >= kLeastDenseQuality) seen[i] = frame.dense;
   }
