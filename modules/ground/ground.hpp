@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "modules/geometry/camera_model.hpp"
 #include "modules/geometry/se3.hpp"
@@ -56,6 +57,8 @@ enum class CueStatus : std::int8_t { kUsed = 0, kAbsent = 1, kGated = 2, kFailed
 
 enum CueId : std::size_t { kCueDense = 0, kCuePoints = 1, kCueObjects = 2, kNumCues = 3 };
 
+inline constexpr std::size_t kMaxCueFeatures = 8;
+
 /// One cue's observation. NaN where the cue does not observe a component.
 struct CueObservation {
   CueStatus status = CueStatus::kAbsent;
@@ -66,11 +69,23 @@ struct CueObservation {
   double n1_var = 0.0;
   double n3_var = 0.0;
   double quality = 0.0;  ///< [0, 1]
+  /// What the cue's covariance was predicted from, as its own algorithm defines it; in process only,
+  /// for learning and tests. Paper mode: widths of the slices in h, n1, n3 (dense), the vote's score
+  /// (points), the observation's own variance (objects).
+  std::array<double, kMaxCueFeatures> features{};
+  int num_features = 0;
+};
+
+/// The camera's pitch out of one detected object.
+struct ObjectNormal {
+  double n3 = 0.0;
+  double n3_var = 0.0;  ///< > 0
 };
 
 struct GroundInput {
-  const VoOutput* vo = nullptr;  ///< never null
-  ImageView image;               ///< image of vo->seq; empty when it did not arrive
+  const VoOutput* vo = nullptr;                ///< never null
+  ImageView image;                             ///< image of vo->seq; empty when it did not arrive
+  std::span<const ObjectNormal> objects = {};  ///< of the same image; paper mode only
 };
 
 struct PlaneOutput {
@@ -110,17 +125,28 @@ struct GroundOutput {
   EgoOutput ego;
 };
 
+struct GroundSight;
+
 /// One `update` per VO result, in order. Deterministic in config, camera and the inputs.
-class GroundEstimator {
+class GroundAlgorithm {
+ public:
+  virtual ~GroundAlgorithm() = default;
+  GroundAlgorithm() = default;
+  GroundAlgorithm(const GroundAlgorithm&) = delete;
+  GroundAlgorithm& operator=(const GroundAlgorithm&) = delete;
+
+  /// Takes one VO result and its image. The result stays valid until the next call.
+  virtual const GroundOutput& update(const GroundInput& input, StageProbe& probe) = 0;
+};
+
+/// The default algorithm. (`paper/` has the published one; `make_ground_algorithm` chooses.)
+class GroundEstimator final : public GroundAlgorithm {
  public:
   /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
   GroundEstimator(const GroundConfig& config, const CameraModel& camera);
-  ~GroundEstimator();
-  GroundEstimator(const GroundEstimator&) = delete;
-  GroundEstimator& operator=(const GroundEstimator&) = delete;
+  ~GroundEstimator() override;
 
-  /// Takes one VO result and its image. The result stays valid until the next call.
-  const GroundOutput& update(const GroundInput& input, StageProbe& probe);
+  const GroundOutput& update(const GroundInput& input, StageProbe& probe) override;
 
  private:
   struct Impl;
