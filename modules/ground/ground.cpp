@@ -8,6 +8,7 @@
 #include "modules/ground/cue_covariance.hpp"
 #include "modules/ground/dense_cue.hpp"
 #include "modules/ground/ego_motion.hpp"
+#include "modules/ground/ground_sight.hpp"
 #include "modules/ground/image_ring.hpp"
 #include "modules/ground/plane_angles.hpp"
 #include "modules/ground/plane_filter.hpp"
@@ -90,18 +91,11 @@ struct GroundEstimator::Impl {
   GroundOutput out;
 
   /// What this frame brought; cleared at its begin.
-  struct Frame {
+  struct Frame : GroundSight {
     const Pyramid* image = nullptr;
-    Travel travel;
-    bool searched = false;  ///< the baseline was long enough to look for cues
     Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< expected
     double height = 0.0;                                    ///< expected [vo]
-    DenseObservation dense;
-    PointsObservation points;
-    CueContext context;
-    CueStatus dense_status = CueStatus::kAbsent;
-    CueStatus points_status = CueStatus::kAbsent;
-    double var_before = 0.0;  ///< of ln h, before the cues
+    double var_before = 0.0;                                ///< of ln h, before the cues
 
     [[nodiscard]] bool height_measured() const {
       return dense_status == CueStatus::kUsed || points_status == CueStatus::kUsed;
@@ -118,6 +112,8 @@ GroundEstimator::GroundEstimator(const GroundConfig& config, const CameraModel& 
 
 GroundEstimator::~GroundEstimator() = default;
 
+const GroundSight* GroundEstimator::sight() const { return &impl_->frame; }
+
 const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe& probe) {
   Impl& m = *impl_;
   const VoOutput& vo = *input.vo;
@@ -131,6 +127,9 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   m.follow_scale_epoch(vo);
   m.measure_cues(vo, probe);
   m.fuse();
+  m.frame.filter_started = m.filter.started();
+  m.frame.state = m.filter.state();
+  m.frame.cov = m.filter.cov();
   m.write_cues();
   m.write_plane(vo, m.frame.image != nullptr);
   probe.mark("fuse");

@@ -137,6 +137,8 @@ class GroundAlgorithm {
 
   /// Takes one VO result and its image. The result stays valid until the next call.
   virtual const GroundOutput& update(const GroundInput& input, StageProbe& probe) = 0;
+  /// What the last update's cues saw (ground_sight.hpp); null when the algorithm does not tell.
+  [[nodiscard]] virtual const GroundSight* sight() const { return nullptr; }
 };
 
 /// The default algorithm. (`paper/` has the published one; `make_ground_algorithm` chooses.)
@@ -147,6 +149,7 @@ class GroundEstimator final : public GroundAlgorithm {
   ~GroundEstimator() override;
 
   const GroundOutput& update(const GroundInput& input, StageProbe& probe) override;
+  [[nodiscard]] const GroundSight* sight() const override;
 
  private:
   struct Impl;

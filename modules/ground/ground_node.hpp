@@ -39,6 +39,10 @@ class GroundNode {
 
   [[nodiscard]] bool calibrated() const { return estimator_.has_value(); }
   [[nodiscard]] bool waiting() const { return waiting_; }
+  /// What the newest frame's cues saw; null before a calibration and when the algorithm does not tell.
+  [[nodiscard]] const GroundSight* sight() const {
+    return estimator_ ? estimator_->sight() : nullptr;
+  }
   /// Images and motions that never arrived.
   [[nodiscard]] std::int64_t num_lost() const { return losses_.num_lost() + num_motions_lost_; }
   /// Motions that were processed without an image.

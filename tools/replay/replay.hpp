@@ -52,6 +52,7 @@ class Replay {
   [[nodiscard]] const std::string& first_refusal() const { return first_refusal_; }
   [[nodiscard]] std::int64_t num_lost() const { return vo_.num_lost(); }
   [[nodiscard]] bool calibrated() const { return vo_.calibrated(); }
+  [[nodiscard]] const GroundNode& ground() const { return ground_; }
   [[nodiscard]] const StageTimer& vo_timer() const { return vo_timer_; }
   [[nodiscard]] const StageTimer& ground_timer() const { return ground_timer_; }
 

@@ -1,0 +1,30 @@
+/// What one frame's cues saw, as the fusion used it: for training, tests and displays.
+///
+/// Frames  cam of the newest image.  Units  [vo]; state (n1, n3, ln h).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "modules/ground/cue_covariance.hpp"
+#include "modules/ground/dense_cue.hpp"
+#include "modules/ground/ground.hpp"
+#include "modules/ground/points_cue.hpp"
+#include "modules/ground/travel.hpp"
+
+namespace plumb {
+
+struct GroundSight {
+  bool searched = false;  ///< the baseline was long enough to look for cues
+  Travel travel;
+  CueContext context;
+  DenseObservation dense;
+  PointsObservation points;
+  CueStatus dense_status = CueStatus::kAbsent;
+  CueStatus points_status = CueStatus::kAbsent;
+
+  bool filter_started = false;                      ///< the two below hold
+  Eigen::Vector3d state = Eigen::Vector3d::Zero();  ///< of the filter, this frame's cues in it
+  Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace plumb
