@@ -75,16 +75,42 @@ TEST(Drive, BrakingPitchesTheNoseDown) {
   EXPECT_LT(pushing, -0.003);
 }
 
-TEST(Drive, TurntableTurnsWithoutMoving) {
-  Route route = make_builtin_route("stop-and-go", 5.0, 3);
+TEST(Drive, TurntableTurnsWithoutMovingTheCamera) {
+  const Route route = make_builtin_route("standing", 5.0, 3);
   const Terrain terrain(route);
   DriveConfig config;
   config.yaw_rate_rad_s = 0.5;
   const Drive drive(terrain, config);
-  const Se3 a = drive.T_map_veh(0.2);
-  const Se3 b = drive.T_map_veh(1.2);
-  EXPECT_LT((a.t - b.t).norm(), 0.02);
-  EXPECT_NEAR(log_so3(a.R.transpose() * b.R).norm(), 0.5, 0.01);
+  const Se3 a = drive.T_map_cam(0.2);
+  const Se3 b = drive.T_map_cam(1.2);
+  EXPECT_LT((a.t - b.t).norm(), 1e-3);
+  EXPECT_NEAR(log_so3(a.R.transpose() * b.R).norm(), 0.5, 1e-3);
+}
+
+TEST(Drive, TurntableTurnsThereAndBackWithinItsTime) {
+  const Route route = make_builtin_route("standing", 8.0, 3);
+  const Terrain terrain(route);
+  DriveConfig config;
+  config.yaw_rate_rad_s = 0.3;
+  config.turn_from_s = 2.0;
+  config.turn_to_s = 6.0;
+  const Drive drive(terrain, config);
+  const Eigen::Matrix3d R_start = drive.T_map_cam(0.0).R;
+  const auto turned = [&](double t) {
+    return log_so3(R_start.transpose() * drive.T_map_cam(t).R).norm();
+  };
+  EXPECT_NEAR(turned(2.0), 0.0, 1e-6);
+  EXPECT_NEAR(turned(4.0), 0.6, 1e-3);
+  EXPECT_NEAR(turned(7.0), 0.0, 1e-6);
+}
+
+TEST(Drive, TheStopRouteStandsAndDrivesOn) {
+  const Route route = make_builtin_route("stop", 14.0, 3);
+  const Terrain terrain(route);
+  const Drive drive(terrain, DriveConfig{});
+  EXPECT_GT(drive.state(0.5).speed_m_s, 7.0);
+  for (double t = 6.0; t < 9.0; t += 0.1) EXPECT_LT(drive.state(t).speed_m_s, 0.01) << t;
+  EXPECT_GT(drive.state(13.0).speed_m_s, 3.0);
 }
 
 }  // namespace

@@ -129,7 +129,8 @@ TEST(SynthProgram, KeepsAFolderThatIsNotEmptyUnlessForced) {
 TEST(SynthProgram, ListsItsRoutesAndMeasuresADrive) {
   const Ran routes = run("--list-routes");
   EXPECT_EQ(routes.code, 0);
-  for (const char* name : {"city", "straight", "motorway", "loop", "stop-and-go"})
+  for (const char* name :
+       {"city", "straight", "motorway", "loop", "stop-and-go", "stop", "standing"})
     EXPECT_NE(routes.text.find(name), std::string::npos) << name;
   EXPECT_EQ(run("--version").code, 0);
   EXPECT_EQ(run("--help").code, 0);

@@ -143,11 +143,12 @@ void Drive::integrate() {
     state.speed_m_s = (s[b] - s[a]) / (static_cast<double>(b - a) * dt);
     state.accel_m_s2 = b == a + 2 ? (s[b] - 2.0 * s[i] + s[a]) / (dt * dt) : 0.0;
     const RoutePoint point = route.at(s[i]);
-    state.yaw_rate_rad_s = point.curvature * state.speed_m_s + config_.yaw_rate_rad_s;
+    const double path_rate_rad_s = point.curvature * state.speed_m_s;
+    state.yaw_rate_rad_s = path_rate_rad_s + turntable_rate_rad_s(static_cast<double>(i) * dt);
 
     const Stance ground = ground_stance(*terrain_, point);
     const Stance rough = roughness.at(s[i]);
-    const double lean = kRollPerAccel * state.yaw_rate_rad_s * state.speed_m_s;
+    const double lean = kRollPerAccel * path_rate_rad_s * state.speed_m_s;
     const double dive = -kPitchPerAccel * state.accel_m_s2;
     const Stance wish{ground.z_m + rough.z_m,
                       ground.pitch_rad + rough.pitch_rad + config_.suspension * dive,
@@ -182,10 +183,23 @@ VehicleState Drive::state(double time_s) const {
   return mix(states_[i], states_[i + 1], x - static_cast<double>(i));
 }
 
+double Drive::turntable_rate_rad_s(double time_s) const {
+  if (config_.turn_to_s <= config_.turn_from_s) return config_.yaw_rate_rad_s;
+  if (time_s < config_.turn_from_s || time_s > config_.turn_to_s) return 0.0;
+  const bool there = time_s < 0.5 * (config_.turn_from_s + config_.turn_to_s);
+  return there ? config_.yaw_rate_rad_s : -config_.yaw_rate_rad_s;
+}
+
+double Drive::turntable_rad(double time_s) const {
+  if (config_.turn_to_s <= config_.turn_from_s) return config_.yaw_rate_rad_s * time_s;
+  const double t = std::clamp(time_s, config_.turn_from_s, config_.turn_to_s);
+  return config_.yaw_rate_rad_s * std::min(t - config_.turn_from_s, config_.turn_to_s - t);
+}
+
 Se3 Drive::T_map_veh(double time_s) const {
   const VehicleState now = state(time_s);
   const RoutePoint rear_axle = terrain_->route().at(now.s_m);
-  const double yaw = rear_axle.yaw_rad + config_.yaw_rate_rad_s * time_s;
+  const double yaw = rear_axle.yaw_rad;
   Se3 T_map_veh;
   T_map_veh.R = exp_so3({0.0, 0.0, yaw}) * exp_so3({0.0, now.pitch_rad, 0.0}) *
                 exp_so3({now.roll_rad, 0.0, 0.0});
@@ -194,6 +208,11 @@ Se3 Drive::T_map_veh(double time_s) const {
   const Eigen::Vector3d level = exp_so3({0.0, 0.0, yaw}) * middle;
   T_map_veh.t = Eigen::Vector3d(rear_axle.p_map.x(), rear_axle.p_map.y(), now.z_m) + level -
                 T_map_veh.R * middle;
+  // The turntable turns the vehicle about its camera, which stays where it is.
+  const Eigen::Matrix3d turn = exp_so3({0.0, 0.0, turntable_rad(time_s)});
+  const Eigen::Vector3d centre = T_map_veh * T_veh_cam_.t;
+  T_map_veh.R = turn * T_map_veh.R;
+  T_map_veh.t = centre + turn * (T_map_veh.t - centre);
   return T_map_veh;
 }
 

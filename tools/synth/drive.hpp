@@ -25,7 +25,9 @@ struct MountConfig {
 struct DriveConfig {
   MountConfig mount;
   double suspension = 1.0;      ///< scales every motion on the springs; 0 = rigid
-  double yaw_rate_rad_s = 0.0;  ///< turntable: added rotation about the vertical, for pure rotation
+  double yaw_rate_rad_s = 0.0;  ///< turntable: added rotation about the camera's vertical
+  double turn_from_s = 0.0;     ///< the turntable turns there and back in this time;
+  double turn_to_s = 0.0;       ///< all the time when the span is empty
   std::uint64_t seed = 1;
 };
 
@@ -51,6 +53,8 @@ class Drive {
   [[nodiscard]] double duration_s() const;
 
  private:
+  [[nodiscard]] double turntable_rate_rad_s(double time_s) const;
+  [[nodiscard]] double turntable_rad(double time_s) const;
   void integrate();
 
   const Terrain* terrain_;

@@ -60,9 +60,12 @@ void declare_drive(CLI::App& app, Options& o) {
                  "scale of the motion on the springs, 0 = rigid")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
-  app.add_option("--turntable", c.drive.yaw_rate_rad_s, "added rotation about the vertical, rad/s")
+  app.add_option("--turntable", c.drive.yaw_rate_rad_s,
+                 "added rotation about the camera's vertical, rad/s")
       ->check(CLI::Range(-3.0, 3.0))
       ->capture_default_str();
+  app.add_option("--turntable-span", o.turntable_span,
+                 "FROM:TO in s: the turntable turns there and back; default all the time there");
   app.add_option("--bumps", c.bumps, "speed bumps along the way")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
@@ -75,6 +78,9 @@ void declare_drive(CLI::App& app, Options& o) {
       ->capture_default_str();
   app.add_option("--lead-gap", c.scene.lead_gap_m, "its distance at rest, m")
       ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+  app.add_option("--lead-headway", c.scene.lead_headway_s, "it is where we are this much later, s")
+      ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
 }
 
@@ -203,6 +209,9 @@ void complete(Options& o) {
     throw UsageError("--start and --end go with --poses");
   c.tunnel = parse_span("--tunnel", o.tunnel, 0.1, 0.4);
   c.covered = parse_span("--covered", o.covered, 0.0, 0.05);
+  const DarkSpan turning = parse_span("--turntable-span", o.turntable_span, 1.0, 0.0);
+  c.drive.turn_from_s = turning.from_s;
+  c.drive.turn_to_s = turning.to_s;
   if (c.sensor.step_factor != 1.0 && c.sensor.step_every_s <= 0.0) c.sensor.step_every_s = 4.0;
 
   Random random(hash_keys(c.seed, 0x3072));

@@ -16,6 +16,7 @@ struct Options {
   std::string size = "1242x375";
   std::string tunnel;
   std::string covered;
+  std::string turntable_span;
   double sun_deg = 35.0;
   double sun_azimuth_deg = -1.0;
   double mount_pitch_deg = 1e9;

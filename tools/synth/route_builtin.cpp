@@ -186,7 +186,9 @@ const std::vector<std::pair<std::string, std::string>>& builtin_routes() {
       {"straight", "main road with gentle bends, slopes and crests, 14 m/s"},
       {"motorway", "three lanes, little texture beside the road, 27 m/s"},
       {"loop", "closed block of streets, returns to its start, 11 m/s"},
-      {"stop-and-go", "main road in a queue: starts at rest, stops every 25 to 50 m"}};
+      {"stop-and-go", "main road in a queue: starts at rest, stops every 25 to 50 m"},
+      {"stop", "main road at 8 m/s, one stop of 5 s after 24 m"},
+      {"standing", "main road, at rest all the time"}};
   return list;
 }
 
@@ -217,6 +219,15 @@ Route make_builtin_route(const std::string& name, double duration_s, std::uint64
     draw_open(pen, 9.0 * duration_s + 100.0, 150.0, 300.0, random);
     for (double s = 25.0; s < pen.s_m; s += random.uniform(25.0, 50.0))
       pace.stops.push_back({s, random.uniform(1.5, 3.5)});
+  } else if (name == "stop") {
+    route.setting = main_road_setting();
+    pace.cruise_m_s = 8.0;
+    pace.stops.push_back({24.0, 5.0});
+    draw_open(pen, 9.0 * duration_s + 100.0, 150.0, 300.0, random);
+  } else if (name == "standing") {
+    route.setting = main_road_setting();
+    pace.stops.push_back({0.0, duration_s + 10.0});
+    draw_open(pen, 200.0, 150.0, 300.0, random);
   } else {
     throw std::invalid_argument("unknown route '" + name + "': --list-routes names them");
   }

@@ -22,7 +22,7 @@ void Scene::plan_traffic(const SceneConfig& config) {
     lead.kind = config.lead == "truck" ? VehicleKind::kTruck : VehicleKind::kCar;
     lead.seed = static_cast<std::uint32_t>(random.next());
     lead.leads = true;
-    lead.headway_s = 0.9;
+    lead.headway_s = config.lead_headway_s;
     lead.s_m = config.lead_gap_m;
     movers_.push_back(lead);
   }

@@ -39,6 +39,7 @@ struct SceneConfig {
   int traffic = 6;            ///< moving vehicles
   std::string lead = "none";  ///< vehicle ahead of us: none, car or truck
   double lead_gap_m = 6.0;
+  double lead_headway_s = 0.9;
   std::uint64_t seed = 1;
 };
 
