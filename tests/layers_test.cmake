@@ -1,9 +1,10 @@
-# A pure library may not reach I/O, the clock, the transport or OpenCV. Only main.cpp, *_wire.*, *_node.* and *_source.* may.
+# A pure library may not reach I/O, the clock, the transport or OpenCV. Only main.cpp, *_wire.*, *_node.* and *_source.* may,
+# and paper mode's SIFT.
 # Flow is one way: camera -> vo -> ground -> objects/can; geometry, imaging and detections know nobody.
 file(GLOB_RECURSE files ${ROOT}/modules/*.hpp ${ROOT}/modules/*.cpp)
 set(failed FALSE)
 foreach(file ${files})
-  if(NOT file MATCHES "(main\\.cpp|_(wire|node)\\.(hpp|cpp)|_source[a-z_]*\\.(hpp|cpp))$")
+  if(NOT file MATCHES "(main\\.cpp|_(wire|node)\\.(hpp|cpp)|_source[a-z_]*\\.(hpp|cpp)|ground/paper/sift_matcher\\.cpp)$")
     file(STRINGS ${file} hits REGEX
       "#include <(lcm/|iostream|fstream|cstdio|chrono|thread|mutex|opencv|linux/|sys/|unistd|toml)|#include \"(plumb/|platform/(bus|clock|process|log_file|socket_can|can_trace|v4l2|config\\.hpp))")
     if(hits)

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "modules/ground/paper/ground_algorithm.hpp"
+
 namespace plumb {
 
 GroundNode::GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink)
@@ -17,7 +19,7 @@ const char* GroundNode::take_calibration(const camera_calibration_t& message) {
   camera_ = camera;
   decoder_.emplace(camera.width_px, camera.height_px);
   images_.emplace(camera.width_px, camera.height_px);
-  estimator_.emplace(config_, camera);
+  algorithm_ = make_ground_algorithm(config_, camera);
   return nullptr;
 }
 
@@ -75,7 +77,8 @@ const char* GroundNode::process(const ImageFrame* frame) {
   if (frame != nullptr) refused = decoder_->decode(*frame, &input.image);
   if (input.image.empty()) ++num_unpaired_;
   probe_->mark("decode");
-  publish(estimator_->update(input, *probe_));
+  output_ = &algorithm_->update(input, *probe_);
+  publish(*output_);
   return refused;
 }
 

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -37,12 +38,15 @@ class GroundNode {
   /// The image of a waiting motion will not come any more.
   void expire();
 
-  [[nodiscard]] bool calibrated() const { return estimator_.has_value(); }
+  [[nodiscard]] bool calibrated() const { return algorithm_ != nullptr; }
   [[nodiscard]] bool waiting() const { return waiting_; }
   /// What the newest frame's cues saw; null before a calibration and when the algorithm does not tell.
   [[nodiscard]] const GroundSight* sight() const {
-    return estimator_ ? estimator_->sight() : nullptr;
+    return algorithm_ ? algorithm_->sight() : nullptr;
   }
+  /// The newest frame's result with what does not travel (CueObservation::features); null before
+  /// the first one after a calibration.
+  [[nodiscard]] const GroundOutput* output() const { return output_; }
   /// Images and motions that never arrived.
   [[nodiscard]] std::int64_t num_lost() const { return losses_.num_lost() + num_motions_lost_; }
   /// Motions that were processed without an image.
@@ -59,7 +63,8 @@ class GroundNode {
   CameraModel camera_;
   std::optional<ImageDecoder> decoder_;
   std::optional<PendingImages> images_;
-  std::optional<GroundEstimator> estimator_;
+  std::unique_ptr<GroundAlgorithm> algorithm_;
+  const GroundOutput* output_ = nullptr;
   LossCounter losses_;
   VoOutput vo_;  ///< the motion in hand, or waiting
   bool waiting_ = false;

@@ -1,0 +1,13 @@
+#include "modules/ground/paper/ground_algorithm.hpp"
+
+#include "modules/ground/paper/paper_ground.hpp"
+
+namespace plumb {
+
+std::unique_ptr<GroundAlgorithm> make_ground_algorithm(const GroundConfig& config,
+                                                       const CameraModel& camera) {
+  if (config.mode == "paper") return std::make_unique<PaperGround>(config, camera);
+  return std::make_unique<GroundEstimator>(config, camera);
+}
+
+}  // namespace plumb
