@@ -1,0 +1,37 @@
+/// Errors of the cues and of what was reported, against one frame's truth.
+///
+/// Frames  cam of the newest image.  Units  [vo] for the cues, metres for what is reported.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "modules/geometry/se3.hpp"
+#include "modules/ground/ground_sight.hpp"
+#include "plumb/ego_motion_t.hpp"
+#include "plumb/ground_plane_t.hpp"
+#include "tools/support/plane_file.hpp"
+#include "tools/train/sample.hpp"
+
+namespace plumb {
+
+/// What the cues are held against.
+struct CueReference {
+  double ln_height = 0.0;  ///< true, [vo]
+  const TruePlane* plane = nullptr;
+  Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< the true one, else the filter's
+  Eigen::Matrix2d normal_cov = Eigen::Matrix2d::Zero();   ///< of (n1, n3); zero for the true one
+};
+
+/// d(ln h given the normal) / d(n1, n3) of what the dense cue saw.
+[[nodiscard]] Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information);
+
+void write_dense(const GroundSight& sight, const CueReference& reference, Sample* sample);
+void write_points(const GroundSight& sight, const CueReference& reference, Sample* sample);
+void write_travel(const GroundSight& sight, const CueReference& reference, Sample* sample);
+
+/// Height, pitch and roll. @pre plane has a true plane beside it
+void write_plane_output(const ground_plane_t& plane, const TruePlane& truth, Sample* sample);
+/// Length, translation and rotation of the frame's motion.
+void write_motion_output(const ego_motion_t& ego, const Se3& T_prev_cam_true, Sample* sample);
+
+}  // namespace plumb

@@ -1,0 +1,19 @@
+/// plumb-train sample: one log with truth -> one file of samples. The map step; any number may run at once.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+
+namespace plumb {
+
+struct SampleCommand {
+  std::string log, out, planes, drive, config;
+  std::uint64_t seed = 1;
+  bool again = false;
+};
+
+CLI::App* add_sample_command(CLI::App* app, SampleCommand* command);
+int run_sample_command(const SampleCommand& command);
+
+}  // namespace plumb
