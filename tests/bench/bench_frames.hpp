@@ -41,8 +41,8 @@ struct Frames {
   std::vector<cv::Mat> images;
 };
 
-/// The real drive, up to kMaxFrames of it, or a rendered one.
-inline Frames load_frames() {
+/// The real drive, up to `max_frames` of it, or a rendered one.
+inline Frames load_frames(int max_frames = kMaxFrames) {
   Frames frames;
   const auto folder = test::kitti_sequence("raw/drive0039_024-400");
   if (!folder.empty()) {
@@ -51,7 +51,7 @@ inline Frames load_frames() {
       files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
-    files.resize(std::min<std::size_t>(files.size(), kMaxFrames));
+    files.resize(std::min(files.size(), static_cast<std::size_t>(std::max(0, max_frames))));
     for (const auto& f : files)
       frames.images.push_back(cv::imread(f.string(), cv::IMREAD_GRAYSCALE));
     std::ifstream calib(folder / "calib.txt");
@@ -68,7 +68,7 @@ inline Frames load_frames() {
   frames.name = "rendered street";
   const test::Scene scene(frames.camera);
   unsigned seed = 0;
-  for (const Se3& T_world_cam : test::drive(kMaxFrames, 0.7)) {
+  for (const Se3& T_world_cam : test::drive(std::min(max_frames, kMaxFrames), 0.7)) {
     const test::RenderedImage image = scene.render(T_world_cam, 1.5, ++seed);
     frames.images.push_back(
         cv::Mat(375, 1242, CV_8U, const_cast<unsigned char*>(image.pixels.data())).clone());

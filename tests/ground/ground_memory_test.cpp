@@ -4,6 +4,7 @@
 #include "modules/ground/ground.hpp"
 #include "tests/ground/road_scene.hpp"
 #include "tests/support/count_malloc.hpp"
+#include "tests/support/heap_bytes.hpp"
 
 namespace plumb {
 namespace {
@@ -35,6 +36,16 @@ TEST(GroundMemory, NoFrameAllocates) {
     (void)estimator.update({&vo[k], images[k].view()}, probe);
   }
   EXPECT_EQ(test::g_num_mallocs.load(), before);
+}
+
+TEST(GroundMemory, OwnsLessThan16MegabytesAtFullSize) {
+  if (!test::kCountsMallocs) GTEST_SKIP() << "the sanitizer owns malloc";
+  const CameraModel camera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 1.65};
+  const std::size_t before = test::heap_bytes();
+  const GroundEstimator estimator(GroundConfig{}, camera);
+  const std::size_t owned = test::heap_bytes() - before;
+  EXPECT_GT(owned, std::size_t{1} << 20U);  // the counter works
+  EXPECT_LT(owned, std::size_t{16} << 20U);
 }
 
 }  // namespace

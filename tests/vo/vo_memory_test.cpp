@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/count_malloc.hpp"
+#include "tests/support/heap_bytes.hpp"
 #include "tests/vo/drive_fixture.hpp"
 
 namespace plumb {
@@ -35,6 +36,16 @@ TEST(Memory, NothingIsAllocatedOverADriveWithEveryMishap) {
   EXPECT_GT(num_ok, 20);
   EXPECT_GT(num_coasting, 1);
   EXPECT_EQ(epochs, 1);
+}
+
+TEST(Memory, OwnsLessThan16MegabytesAtFullSize) {
+  if (!test::kCountsMallocs) GTEST_SKIP() << "the sanitizer owns malloc";
+  const CameraModel camera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 1.65};
+  const std::size_t before = test::heap_bytes();
+  const VisualOdometry odometry(VoConfig{}, camera, 1);
+  const std::size_t owned = test::heap_bytes() - before;
+  EXPECT_GT(owned, std::size_t{1} << 20U);  // the counter works
+  EXPECT_LT(owned, std::size_t{16} << 20U);
 }
 
 }  // namespace
