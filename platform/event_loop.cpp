@@ -23,18 +23,28 @@ timespec to_timespec(std::int64_t us) {
   return t;
 }
 
+sigset_t stop_signals() {
+  sigset_t stops;
+  sigemptyset(&stops);
+  sigaddset(&stops, SIGINT);
+  sigaddset(&stops, SIGTERM);
+  return stops;
+}
+
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
 }  // namespace
 
-EventLoop::EventLoop() {
-  sigset_t stops;
-  sigemptyset(&stops);
-  sigaddset(&stops, SIGINT);
-  sigaddset(&stops, SIGTERM);
+void hold_stop_signals() {
+  const sigset_t stops = stop_signals();
   pthread_sigmask(SIG_BLOCK, &stops, nullptr);
+}
+
+EventLoop::EventLoop() {
+  hold_stop_signals();
+  const sigset_t stops = stop_signals();
   const int fd = ::signalfd(-1, &stops, SFD_CLOEXEC | SFD_NONBLOCK);
   if (fd < 0) fail("signalfd");
   add(fd, false, [this, fd] {

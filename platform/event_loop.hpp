@@ -13,13 +13,16 @@
 
 namespace plumb {
 
+/// Blocks SIGINT and SIGTERM for this thread and those it starts later: an EventLoop takes them, also
+/// those that came before it was made.
+void hold_stop_signals();
+
 class EventLoop {
  public:
   using Callback = std::function<void()>;
   using TimerId = std::size_t;
 
-  /// Blocks SIGINT and SIGTERM for this thread and those it starts later: run() takes them. Throws
-  /// std::system_error when the system has no descriptors left.
+  /// Holds the stop signals. Throws std::system_error when the system has no descriptors left.
   EventLoop();
   ~EventLoop();
   EventLoop(const EventLoop&) = delete;

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "platform/clock.hpp"
 #include "platform/log.hpp"
@@ -39,6 +40,7 @@ struct Process::Impl {
   std::string url;
   std::string config_path;
   bool print_config = false;
+  std::function<void(CLI::App&)> declare;
   Counters counters;
   StageTimer timer;
   Health health;
@@ -47,6 +49,7 @@ struct Process::Impl {
 };
 
 Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) {
+  hold_stop_signals();  // one that comes before the loop is there is taken by the loop
   set_log_name(impl_->program.c_str());
   CLI::App& app = impl_->app;
   app.add_option("--lcm-url", impl_->url,
@@ -58,7 +61,11 @@ Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) 
 
 Process::~Process() = default;
 
-CLI::App& Process::options() { return impl_->app; }
+void Process::declare_options(std::function<void(CLI::App&)> declare) {
+  impl_->declare = std::move(declare);
+}
+
+const std::string& Process::config_path() const { return impl_->config_path; }
 Bus& Process::bus() { return *impl_->bus; }
 EventLoop& Process::loop() { return *impl_->loop; }
 Health& Process::health() { return impl_->health; }
@@ -67,9 +74,10 @@ StageTimer& Process::timer() { return impl_->timer; }
 
 int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
                        const std::function<void()>& setup) {
-  const int done = parse_command_line(impl_->app, impl_->program.c_str(), argc, argv);
-  if (done >= 0) return done;
   try {
+    if (impl_->declare) impl_->declare(impl_->app);
+    const int done = parse_command_line(impl_->app, impl_->program.c_str(), argc, argv);
+    if (done >= 0) return done;
     check_url(impl_->url);
     config.load(impl_->config_path);
     if (impl_->print_config) {
@@ -92,7 +100,7 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
 
 void Process::serve(const std::function<void()>& setup) {
   Impl& p = *impl_;
-  p.loop.emplace();  // before liblcm starts its thread, which then leaves the stop signals to us
+  p.loop.emplace();
   p.bus.emplace(p.url, &p.counters);
   Counters health_counters;  // health messages are not this process's product
   Publisher<process_health_t> publisher(*p.bus, p.info.health, Health::kMaxBytes, &health_counters);

@@ -1,6 +1,7 @@
 /// What every plumb-* process shares: options, configuration, signals, health, exit codes.
 ///
-/// Use      construct; add options; start(); create subscribers and publishers on bus(); run().
+/// Use      construct first thing in main; declare_options(); run(), whose setup makes the endpoints.
+/// Signals  SIGINT and SIGTERM are held from construction on and end run() in order.
 /// Exit     0 after --help, --version, --print-config, SIGINT and SIGTERM; 2 for an option, key,
 /// value or file that
 ///          is refused, with one sentence; 1 when the machine fails us (no network, no
@@ -47,8 +48,8 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// For options of this program's own; needs <CLI/CLI.hpp>.
-  [[nodiscard]] CLI::App& options();
+  /// Options of this program's own; `declare` needs <CLI/CLI.hpp> and runs within run().
+  void declare_options(std::function<void(CLI::App&)> declare);
 
   /// Everything after the options: reads them, fills `config`, joins LCM, calls `setup` (which
   /// creates the endpoints) and serves until a stop signal. Returns the exit code; prints what is
@@ -62,6 +63,7 @@ class Process {
   }
 
   // Inside setup and callbacks:
+  [[nodiscard]] const std::string& config_path() const;  ///< as given; empty for none
   [[nodiscard]] Bus& bus();
   [[nodiscard]] EventLoop& loop();
   [[nodiscard]] Health& health();

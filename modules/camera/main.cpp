@@ -77,18 +77,16 @@ class CameraProcess {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // What goes wrong is said once, in our own words.
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::Process process(
       {"camera", "Camera, KITTI folder or video -> CAMERA", plumb::kHealthCamera});
+  // What goes wrong is said once, in our own words.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::PlumbConfig config;
   Options options;
-  declare(process.options(), &options);
+  process.declare_options([&options](CLI::App& app) { declare(app, &options); });
   std::optional<CameraProcess> camera;
   return process.run(argc, argv, &config, [&] {
-    const auto* file = process.options().get_option("--config");
-    const std::filesystem::path folder =
-        file->count() == 0 ? "" : std::filesystem::path(file->as<std::string>()).parent_path();
+    const auto folder = std::filesystem::path(process.config_path()).parent_path();
     camera.emplace(process, config.camera, options, folder);
   });
 }

@@ -100,8 +100,10 @@ int main(int argc, char** argv) {
                           "Ego motion and ground plane onto a CAN bus, as plumbline.dbc says.",
                           plumb::kHealthCan});
   std::string interface, path;
-  process.options().add_option("--interface", interface, "CAN interface, for example can0");
-  process.options().add_option("--trace", path, "file for every frame, as candump -L writes it");
+  process.declare_options([&](CLI::App& app) {
+    app.add_option("--interface", interface, "CAN interface, for example can0");
+    app.add_option("--trace", path, "file for every frame, as candump -L writes it");
+  });
 
   plumb::PlumbConfig config;
   plumb::Sinks sinks;

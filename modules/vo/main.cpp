@@ -51,7 +51,9 @@ int main(int argc, char** argv) {
       {"vo", "Monocular visual odometry: CAMERA -> VO_MOTION", plumb::kHealthVo});
   plumb::PlumbConfig config;
   std::uint64_t seed = 1;
-  process.options().add_option("--seed", seed, "seed of the random sampling; default 1");
+  process.declare_options([&seed](CLI::App& app) {
+    app.add_option("--seed", seed, "seed of the random sampling; default 1");
+  });
   std::optional<VoProcess> vo;
   return process.run(argc, argv, &config, [&] { vo.emplace(process, config.vo, seed); });
 }

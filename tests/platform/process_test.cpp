@@ -1,7 +1,11 @@
 // The process shell, seen from outside: the real plumb-ground and plumb-vo.
 #include "platform/process.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
 
 #include "platform/clock.hpp"
 #include "tests/platform/temp_file.hpp"
@@ -62,6 +66,22 @@ TEST_P(ProcessTest, SaysSoWhenThereIsNoNetwork) {
   EXPECT_EQ(1, child.wait());
   EXPECT_NE(std::string::npos, child.output().find("cannot use LCM network udpm://239.255.76.67"))
       << child.output();
+}
+
+// A program that waits in open() for its settings has no event loop yet.
+TEST_P(ProcessTest, StopsCleanlyWhenAskedBeforeItServes) {
+  const test::TempFile fifo(".toml", "");
+  std::filesystem::remove(fifo.path());
+  ASSERT_EQ(0, ::mkfifo(fifo.path().c_str(), 0600));
+  for (const int stop : {SIGINT, SIGTERM}) {
+    ChildProcess child({GetParam(), "--lcm-url", "memq://", "--config", fifo.path()});
+    const int settings = ::open(fifo.path().c_str(), O_WRONLY);  // returns when the child reads
+    ASSERT_GE(settings, 0);
+    child.signal(stop);
+    ::close(settings);
+    EXPECT_EQ(0, child.wait()) << child.output();
+    EXPECT_NE(std::string::npos, child.output().find("stopped; received 0")) << child.output();
+  }
 }
 
 // What one program said about itself until the end.
