@@ -57,7 +57,7 @@ bool VideoSource::read(GreyFrame* frame) {
     const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
     if (count > static_cast<double>(seq_ + 1)) {
       log_line("%s: ends after %lld of %.0f frames", file_.c_str(),
-               static_cast<long long>(seq_ + 1), count);
+               static_cast<long long>(seq_) + 1, count);
     }
     return false;
   }

@@ -85,7 +85,7 @@ CandidateMixture::Parameters CandidateMixture::start_parameters() const {
   // Coordinates are offsets from the start in units of its deviation: the start is mean 0, factor 1.
   Parameters start = Parameters::Zero(num_parameters());
   for (std::size_t m = 0; m < starts_.size(); ++m) {
-    start(kPerComponent * static_cast<int>(m)) =
+    start(kPerComponent * static_cast<Eigen::Index>(m)) =
         std::log(std::max(starts_[m].score, kLeastAmplitude));
   }
   return start;
@@ -96,7 +96,7 @@ double CandidateMixture::evaluate(const Parameters& parameters, Eigen::VectorXd:
   const Sample& s = samples_[static_cast<std::size_t>(sample)];
   double sum = 0.0;
   for (std::size_t m = 0; m < starts_.size(); ++m) {
-    const int at = kPerComponent * static_cast<int>(m);
+    const int at = kPerComponent * static_cast<Eigen::Index>(m);
     const auto p = parameters.segment<kPerComponent>(at);
     const Eigen::Vector4d offset =
         (s.b - starts_[m].b).cwiseQuotient(scale_px(m)) - p.segment<4>(1);
@@ -188,7 +188,7 @@ bool CandidateMixture::fit(int max_iterations) {
 }
 
 MixtureComponent CandidateMixture::component(std::size_t i) const {
-  const auto p = parameters_.segment<kPerComponent>(kPerComponent * static_cast<int>(i));
+  const auto p = parameters_.segment<kPerComponent>(kPerComponent * static_cast<Eigen::Index>(i));
   const Eigen::Vector4d scale = scale_px(i);
   const Eigen::Matrix4d L = factor_of(p);
   MixtureComponent result;

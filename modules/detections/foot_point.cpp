@@ -97,21 +97,22 @@ std::optional<PitchFromBox> pitch_from_box(const CameraModel& camera, double rol
   const double y_h = -2.0 * c / (b + root);
   if (!(y_h < y_foot)) return std::nullopt;
 
-  // Implicit derivatives of F = a y_h^2 + b y_h + c; dF/dy_h is the root of the discriminant.
-  const double dF_foot = y_h * y_h - k * y_head * y_h + 1.0 - k;
-  const double dF_head = (k - 1.0) * y_h * y_h - k * y_foot * y_h - 1.0;
-  const double dF_k = y_head * y_h * y_h + (1.0 - y_head * y_foot) * y_h - y_foot;
-  const double pitch_per_F = 1.0 / (root * (1.0 + y_h * y_h));
+  // Implicit derivatives of F = a y_h^2 + b y_h + c: F_foot = dF/dy_foot and so on; dF/dy_h is the
+  // root of the discriminant.
+  const double F_foot = y_h * y_h - k * y_head * y_h + 1.0 - k;
+  const double F_head = (k - 1.0) * y_h * y_h - k * y_foot * y_h - 1.0;
+  const double F_k = y_head * y_h * y_h + (1.0 - y_head * y_foot) * y_h - y_foot;
+  const double pitch_slope = 1.0 / (root * (1.0 + y_h * y_h));
 
   const Eigen::RowVector2d foot_change = turn * foot.J_px;
   const Eigen::RowVector2d head_change = turn * head.J_px;
   PitchFromBox result;
   result.pitch_rad = -std::atan(y_h);
-  result.J_px = pitch_per_F * Eigen::Vector3d(dF_foot * foot_change.x() + dF_head * head_change.x(),
-                                              dF_foot * foot_change.y(), dF_head * head_change.y());
-  result.J_roll = pitch_per_F * (dF_foot * turn_change.dot(foot.xy.transpose()) +
-                                 dF_head * turn_change.dot(head.xy.transpose()));
-  result.J_log_ratio = pitch_per_F * dF_k * k;
+  result.J_px = pitch_slope * Eigen::Vector3d(F_foot * foot_change.x() + F_head * head_change.x(),
+                                              F_foot * foot_change.y(), F_head * head_change.y());
+  result.J_roll = pitch_slope * (F_foot * turn_change.dot(foot.xy.transpose()) +
+                                 F_head * turn_change.dot(head.xy.transpose()));
+  result.J_log_ratio = pitch_slope * F_k * k;
   return result;
 }
 

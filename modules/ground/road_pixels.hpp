@@ -37,9 +37,9 @@ struct RoadShape {
 /// Undistorted ray (x, y, 1) and grey value per pixel; padded to whole lanes with zeros.
 struct RoadPixels {
   int size = 0;
-  alignas(32) float x[kMaxRoadPixels + kLanes];
-  alignas(32) float y[kMaxRoadPixels + kLanes];
-  alignas(32) float grey[kMaxRoadPixels + kLanes];
+  alignas(32) float x[kMaxRoadPixels + kLanes] = {};
+  alignas(32) float y[kMaxRoadPixels + kLanes] = {};
+  alignas(32) float grey[kMaxRoadPixels + kLanes] = {};
 
   [[nodiscard]] int padded_size() const { return (size + kLanes - 1) / kLanes * kLanes; }
 };
