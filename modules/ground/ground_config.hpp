@@ -11,6 +11,7 @@ struct PaperConfig {
   double mu = 50.0;
   double region_width_ratio = 0.2;
   double region_height_ratio = 0.333;
+  double least_step_m = 0.5;
   double pitch_rad = 0.0;
   double roll_rad = 0.0;
   double normal_noise_rad = 0.002;
@@ -20,6 +21,7 @@ struct PaperConfig {
 struct GroundConfig {
   std::string mode = "default";
   std::string covariance = "learned";
+  std::string model_file;
   std::string cues = "all";
   double camera_height_m = 1.65;
   double road_near_m = 5.5;
@@ -32,7 +34,10 @@ struct GroundConfig {
     field("ground.mode", c.mode, {"default", "paper"},
           "algorithm: ours, or the one of Song and Chandraker 2014, for comparison");
     field("ground.covariance", c.covariance, {"learned", "fixed"},
-          "paper mode: covariances by each frame's belief, or one for all frames");
+          "how far cues are trusted: by what training found for such frames; or as set by hand "
+          "(paper mode: one covariance for all frames)");
+    field("ground.model_file", c.model_file,
+          "model written by plumb-train fit; empty: config/ground_model.toml as of the build");
     field("ground.cues", c.cues, {"all", "dense", "points"}, "paper mode: cues of height to fuse");
     field("ground.camera_height_m", c.camera_height_m, 0.3, 4.0,
           "optical centre above the road; a calibration message that states one wins");
@@ -48,6 +53,8 @@ struct GroundConfig {
           "width of the region of interest, in the middle of the image");
     field("ground.paper.region_height_ratio", c.paper.region_height_ratio, 0.05, 0.5,
           "height of the region of interest, at the lower edge of the image");
+    field("ground.paper.least_step_m", c.paper.least_step_m, 0.01, 10.0,
+          "nearer images are not compared; at low speed an older one than the previous is");
     field("ground.paper.pitch_rad", c.paper.pitch_rad, -0.2, 0.2,
           "calibrated pitch, nose down positive: start of the search, and fixed for the points");
     field("ground.paper.roll_rad", c.paper.roll_rad, -0.2, 0.2,

@@ -1,6 +1,6 @@
-/// Copies of the newest image and the one before it, by sequence number.
+/// Copies of the last images, found again by sequence number.
 ///
-/// Memory  two images, sized at construction.
+/// Memory  kCapacity images, sized at construction.
 #pragma once
 
 #include <array>
@@ -15,6 +15,9 @@ namespace plumb {
 
 class ImageKeeper {
  public:
+  static constexpr std::size_t kCapacity = 12;
+  static constexpr std::size_t kNone = kCapacity;
+
   ImageKeeper(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {
     for (Kept& kept : images_) {
       kept.pixels.resize(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
@@ -25,9 +28,10 @@ class ImageKeeper {
     return !image.empty() && image.width_px == width_px_ && image.height_px == height_px_;
   }
 
+  /// Keeps a copy in the place of the oldest image, or of the newest one; returns that place.
   /// @pre fits(image)
-  void push(std::int64_t seq, const ImageView& image) {
-    newest_ = 1 - newest_;
+  std::size_t push(std::int64_t seq, const ImageView& image, bool replace_newest) {
+    if (!replace_newest) newest_ = (newest_ + 1) % kCapacity;
     Kept& kept = images_[newest_];
     kept.seq = seq;
     const auto row_bytes = static_cast<std::size_t>(width_px_);
@@ -35,15 +39,20 @@ class ImageKeeper {
       std::memcpy(kept.pixels.data() + static_cast<std::size_t>(v) * row_bytes, image.row(v),
                   row_bytes);
     }
+    return newest_;
   }
 
-  /// Empty when the image of `seq` is not held.
-  [[nodiscard]] ImageView find(std::int64_t seq) const {
-    for (const Kept& kept : images_) {
-      if (seq >= 0 && kept.seq == seq)
-        return {kept.pixels.data(), width_px_, height_px_, width_px_};
+  /// kNone when the image of `seq` is not held.
+  [[nodiscard]] std::size_t find(std::int64_t seq) const {
+    for (std::size_t i = 0; i < kCapacity; ++i) {
+      if (seq >= 0 && images_[i].seq == seq) return i;
     }
-    return {};
+    return kNone;
+  }
+
+  /// @pre place < kCapacity
+  [[nodiscard]] ImageView view(std::size_t place) const {
+    return {images_[place].pixels.data(), width_px_, height_px_, width_px_};
   }
 
  private:
@@ -54,7 +63,7 @@ class ImageKeeper {
   int width_px_;
   int height_px_;
   std::size_t newest_ = 0;
-  std::array<Kept, 2> images_;
+  std::array<Kept, kCapacity> images_;
 };
 
 }  // namespace plumb

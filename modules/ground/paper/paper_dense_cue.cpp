@@ -13,9 +13,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // First simplex: a tenth of the height, and about a degree.
 constexpr double kFirstHeightRatio = 0.1;
 constexpr double kFirstTilt = 0.02;
-// A search that ends further away from the expected plane found something else than the road.
+// A search that ends further away from the expected plane found something else than the road. The
+// paper looks at tilts of +-0.1.
 constexpr double kHeightRange = 2.0;  // factor, either way
-constexpr double kTiltRange = 0.2;
+constexpr double kTiltRange = 0.1;
 // Slices: h over [0.5, 1.5] of the found one (paper, 5.1.1), tilts over +-0.1.
 constexpr double kSliceHeightRatio = 0.5;
 constexpr double kSliceTilt = 0.1;
@@ -34,16 +35,16 @@ constexpr double kLeastDip = 0.85;
 PaperDenseCue::PaperDenseCue(const CameraModel& camera, const PixelBox& box, double rho)
     : region_(camera, box), ln_rho_(std::log(rho)) {}
 
-double PaperDenseCue::cost(const ImageView& previous, const Se3& T_prev_cam,
+double PaperDenseCue::cost(const ImageView& old_image, const Se3& T_old_cam,
                            const Eigen::Vector3d& z) const {
   if (!(z(kH) > 0.0) || z.head<2>().squaredNorm() > 0.5) return kInfinity;
-  const double sad = region_.sad(previous, T_prev_cam, q_of(z));
+  const double sad = region_.sad(old_image, T_old_cam, q_of(z));
   return std::isnan(sad) ? kInfinity : 1.0 - std::exp(-ln_rho_ * sad);  // (7)
 }
 
-PaperDenseObservation PaperDenseCue::measure(const ImageView& previous, const Se3& T_prev_cam,
+PaperDenseObservation PaperDenseCue::measure(const ImageView& old_image, const Se3& T_old_cam,
                                              const Eigen::Vector3d& expected) const {
-  const auto f = [&](const Eigen::Vector3d& z) { return cost(previous, T_prev_cam, z); };
+  const auto f = [&](const Eigen::Vector3d& z) { return cost(old_image, T_old_cam, z); };
   const Eigen::Vector3d step(kFirstTilt, kFirstTilt, kFirstHeightRatio * expected(kH));
   NelderMead<3, decltype(f)> search(f, kLimits);
   const NelderMeadResult<3> found = search.run(expected, step);
@@ -55,16 +56,16 @@ PaperDenseObservation PaperDenseCue::measure(const ImageView& previous, const Se
   const bool near = height_ratio < kHeightRange && height_ratio > 1.0 / kHeightRange &&
                     (found.x - expected).head<2>().cwiseAbs().maxCoeff() < kTiltRange;
   if (!std::isfinite(found.value) || !near) return out;
-  out.sad = region_.sad(previous, T_prev_cam, q_of(out.z));
+  out.sad = region_.sad(old_image, T_old_cam, q_of(out.z));
   for (const PlaneComponent along : {kN1, kN3, kH}) {
-    const Bell bell = fit_bell(slice(previous, T_prev_cam, out.z, along));
+    const Bell bell = fit_bell(slice(old_image, T_old_cam, out.z, along));
     out.width(along) = bell.ok ? bell.width : kInfinity;
   }
   out.ok = true;
   return out;
 }
 
-Slice PaperDenseCue::slice(const ImageView& previous, const Se3& T_prev_cam,
+Slice PaperDenseCue::slice(const ImageView& old_image, const Se3& T_old_cam,
                            const Eigen::Vector3d& z, PlaneComponent along) const {
   const double half = along == kH ? kSliceHeightRatio * z(kH) : kSliceTilt;
   Slice out;
@@ -73,15 +74,15 @@ Slice PaperDenseCue::slice(const ImageView& previous, const Se3& T_prev_cam,
     Eigen::Vector3d at = z;
     at(along) += half * t;
     out.x[i] = at(along);
-    const double f = cost(previous, T_prev_cam, at);
+    const double f = cost(old_image, T_old_cam, at);
     out.f[i] = std::isinf(f) ? 1.0 : f;  // 1 is the cost of images that share nothing
   }
   return out;
 }
 
-double PaperDenseCue::search_height(const ImageView& previous, const Se3& T_prev_cam,
+double PaperDenseCue::search_height(const ImageView& old_image, const Se3& T_old_cam,
                                     const Eigen::Vector3d& normal_cam) const {
-  const double step = T_prev_cam.t.norm();
+  const double step = T_old_cam.t.norm();
   const double ln_range = std::log(kFastestStep / kSlowestStep);
   double best_height = 0.0;
   double best = kInfinity;
@@ -90,7 +91,7 @@ double PaperDenseCue::search_height(const ImageView& previous, const Se3& T_prev
   for (int i = 0; i < kNumSteps; ++i) {
     const double ratio = kSlowestStep * std::exp(ln_range * i / (kNumSteps - 1));
     const double height = step / ratio;
-    const double sad = region_.sad(previous, T_prev_cam, normal_cam / height);
+    const double sad = region_.sad(old_image, T_old_cam, normal_cam / height);
     if (std::isnan(sad)) continue;
     sum += sad;
     ++num;

@@ -1,5 +1,5 @@
 /// Plane-guided dense stereo of the paper: the plane at which the road region of this image and the
-/// previous one differ least.
+/// older one differ least.
 ///
 /// Cost (7), f = 1 - rho^(-SAD) with SAD the mean absolute difference per pixel, is minimised over
 /// (h, n1, n3) by Nelder and Mead's simplex from the expected plane. The belief in each component
@@ -33,19 +33,19 @@ class PaperDenseCue {
   /// The newest image. @pre it has the camera's size
   void take(const ImageView& image) { region_.take(image); }
 
-  /// @pre |T_prev_cam.t| > 0, expected(kH) > 0
-  [[nodiscard]] PaperDenseObservation measure(const ImageView& previous, const Se3& T_prev_cam,
+  /// @pre |T_old_cam.t| > 0, expected(kH) > 0
+  [[nodiscard]] PaperDenseObservation measure(const ImageView& old_image, const Se3& T_old_cam,
                                               const Eigen::Vector3d& expected) const;
 
   /// The height at which a road of that normal fits best, over all plausible speeds; 0 when none
   /// does. For the start, when the unit of t says nothing yet.
-  [[nodiscard]] double search_height(const ImageView& previous, const Se3& T_prev_cam,
+  [[nodiscard]] double search_height(const ImageView& old_image, const Se3& T_old_cam,
                                      const Eigen::Vector3d& normal_cam) const;
 
  private:
-  [[nodiscard]] double cost(const ImageView& previous, const Se3& T_prev_cam,
+  [[nodiscard]] double cost(const ImageView& old_image, const Se3& T_old_cam,
                             const Eigen::Vector3d& z) const;
-  [[nodiscard]] Slice slice(const ImageView& previous, const Se3& T_prev_cam,
+  [[nodiscard]] Slice slice(const ImageView& old_image, const Se3& T_old_cam,
                             const Eigen::Vector3d& z, PlaneComponent along) const;
 
   RoadRegion region_;

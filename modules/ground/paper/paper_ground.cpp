@@ -17,8 +17,6 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// A shorter step, in camera heights, does not tell depth.
-constexpr double kShortestStepRatio = 0.1;
 // The start wants two frames in a row whose heights agree this well in ln h.
 constexpr double kAgreeLnHeight = 0.15;
 constexpr double kStartNormalStd = 0.02;
@@ -46,15 +44,16 @@ struct PaperGround::Impl {
         box(region_of(camera, config.paper.region_width_ratio, config.paper.region_height_ratio)),
         images(camera.width_px, camera.height_px),
         dense_cue(camera, box, config.paper.rho),
-        matcher(box),
+        matcher(box, ImageKeeper::kCapacity),
         points_cue(camera, normal_calibrated, config.paper.mu),
         filter({config.paper.normal_noise_rad, config.paper.height_noise_m}) {}
 
   void take_image(const GroundInput& input);
   void follow_scale_epoch(const VoOutput& vo);
-  void measure(const GroundInput& input, StageProbe& probe);
-  bool prepare(const VoOutput& vo);
-  void search_start();
+  void measure(const VoOutput& vo, StageProbe& probe);
+  void predict(const VoOutput& vo);
+  bool choose_reference(const VoOutput& vo);
+  void search_start(const VoOutput& vo);
   void fuse(const GroundInput& input);
   void correct_scale(const CueFusion& fused);
   void write_dense(const PaperDenseObservation& dense);
@@ -85,16 +84,16 @@ struct PaperGround::Impl {
   std::int32_t scale_epoch = 0;
   bool started = false;
   double metres_per_vo = 0.0;  ///< started only; corrected after every frame that saw a height
-  double last_found_vo = 0.0;  ///< height that the previous frame's start search found; 0: none
+  double last_found_vo = 0.0;  ///< height that the last frame's start search found; 0: none
   GroundOutput out;
 
   /// What this frame brought; cleared at its begin.
   struct Frame {
     bool has_image = false;
-    bool searched = false;  ///< two images and a step that tells depth
-    ImageView previous;
-    std::span<const PixelMatch> matches;
-    Se3 T_prev_cam;              ///< in VO's unit until the scale is known, then in metres
+    bool searched = false;  ///< an older image at a distance that tells depth
+    std::size_t place = ImageKeeper::kNone;
+    std::size_t old_place = ImageKeeper::kNone;
+    Se3 T_old_cam;               ///< [m] by metres_per_vo
     double metres_per_vo = 0.0;  ///< that the cues' heights refer to
     bool measured = false;       ///< a height entered the filter
     double height_m = 0.0;       ///< fused observation, at the corrected scale
@@ -123,7 +122,7 @@ const GroundOutput& PaperGround::update(const GroundInput& input, StageProbe& pr
   m.follow_scale_epoch(vo);
   m.take_image(input);
   probe.mark("features");
-  m.measure(input, probe);
+  m.measure(vo, probe);
   m.fuse(input);
   m.write_plane(vo);
   probe.mark("fuse");
@@ -133,15 +132,14 @@ const GroundOutput& PaperGround::update(const GroundInput& input, StageProbe& pr
   return m.out;
 }
 
+/// A car that stands shows the same view again and again: one of them is enough.
 void PaperGround::Impl::take_image(const GroundInput& input) {
   frame.has_image = images.fits(input.image);
   if (!frame.has_image) return;
-  frame.previous = images.find(input.vo->prev_seq);
-  images.push(input.vo->seq, input.image);
+  const bool stands = input.vo->status == VoStatus::kStandstill;
+  frame.place = images.push(input.vo->seq, input.image, stands);
   dense_cue.take(input.image);
-  if (!uses("points")) return;
-  if (frame.previous.empty()) matcher.forget();
-  frame.matches = matcher.match(input.image);
+  if (uses("points")) matcher.detect(frame.place, input.image);
 }
 
 void PaperGround::Impl::follow_scale_epoch(const VoOutput& vo) {
@@ -156,45 +154,57 @@ void PaperGround::Impl::follow_scale_epoch(const VoOutput& vo) {
   }
 }
 
-void PaperGround::Impl::measure(const GroundInput& input, StageProbe& probe) {
-  const VoOutput& vo = *input.vo;
-  const bool ready = prepare(vo);
-  if (ready && uses("dense")) {
+void PaperGround::Impl::measure(const VoOutput& vo, StageProbe& probe) {
+  const bool moves = vo.status == VoStatus::kOk && frame.has_image;
+  if (!started && moves) search_start(vo);
+  if (started) predict(vo);
+  frame.searched = started && moves && choose_reference(vo);
+  if (frame.searched && uses("dense")) {
     const Eigen::Vector3d& n = normal_calibrated;
-    write_dense(dense_cue.measure(frame.previous, frame.T_prev_cam, {n.x(), n.z(), height_m}));
+    const ImageView old_image = images.view(frame.old_place);
+    write_dense(dense_cue.measure(old_image, frame.T_old_cam, {n.x(), n.z(), height_m}));
   }
   probe.mark("dense");
-  if (ready && uses("points")) {
-    write_points(points_cue.measure(frame.matches, frame.T_prev_cam));
+  if (frame.searched && uses("points")) {
+    write_points(points_cue.measure(matcher.match(frame.place, frame.old_place), frame.T_old_cam));
   }
   probe.mark("points");
 }
 
-/// Predicts the plane; true when this frame can measure it.
-bool PaperGround::Impl::prepare(const VoOutput& vo) {
-  const bool moved = vo.status == VoStatus::kOk || vo.status == VoStatus::kCoasting;
-  frame.T_prev_cam = vo.T_prev_cam;
-  if (vo.status == VoStatus::kRotationOnly) frame.T_prev_cam.t.setZero();
-  if (!started && vo.status == VoStatus::kOk && !frame.previous.empty()) search_start();
-  if (!started) return false;
+void PaperGround::Impl::predict(const VoOutput& vo) {
   frame.metres_per_vo = metres_per_vo;
-  frame.T_prev_cam.t *= metres_per_vo;
-  if (moved || vo.status == VoStatus::kRotationOnly) filter.predict(frame.T_prev_cam);
+  const bool moves = vo.status == VoStatus::kOk || vo.status == VoStatus::kCoasting;
+  if (moves || vo.status == VoStatus::kRotationOnly) {
+    const double m = moves ? metres_per_vo : 0.0;
+    filter.predict({vo.T_prev_cam.R, m * vo.T_prev_cam.t});
+  }
   frame.var_before = filter.cov()(3, 3);
-  frame.searched = vo.status == VoStatus::kOk && !frame.previous.empty() &&
-                   frame.T_prev_cam.t.norm() > kShortestStepRatio * height_m;
-  return frame.searched;
+}
+
+/// The previous image, or at low speed the newest one at least `least_step_m` away.
+bool PaperGround::Impl::choose_reference(const VoOutput& vo) {
+  for (const WindowPose& pose : vo.window) {
+    if (metres_per_vo * pose.T_window_cam.t.norm() < config.paper.least_step_m) continue;
+    const std::size_t place = images.find(pose.seq);
+    if (place == ImageKeeper::kNone) continue;
+    frame.old_place = place;
+    frame.T_old_cam = {pose.T_window_cam.R, metres_per_vo * pose.T_window_cam.t};
+    return true;
+  }
+  return false;
 }
 
 /// The paper takes the scale at the beginning as given; here two frames in a row have to agree.
-void PaperGround::Impl::search_start() {
-  if (frame.T_prev_cam.t.norm() <= 0.0) return;
+void PaperGround::Impl::search_start(const VoOutput& vo) {
+  const std::size_t old_place = images.find(vo.prev_seq);
+  if (old_place == ImageKeeper::kNone || !(vo.T_prev_cam.t.norm() > 0.0)) return;
   double found_vo = 0.0;
   if (uses("dense")) {
-    found_vo = dense_cue.search_height(frame.previous, frame.T_prev_cam, normal_calibrated);
+    found_vo = dense_cue.search_height(images.view(old_place), vo.T_prev_cam, normal_calibrated);
   }
   if (found_vo == 0.0 && uses("points")) {
-    found_vo = points_cue.search_height(frame.matches, frame.T_prev_cam, height_m);
+    found_vo =
+        points_cue.search_height(matcher.match(frame.place, old_place), vo.T_prev_cam, height_m);
   }
   const bool agrees = found_vo > 0.0 && last_found_vo > 0.0 &&
                       std::abs(std::log(found_vo / last_found_vo)) < kAgreeLnHeight;

@@ -10,21 +10,20 @@ constexpr double kLeastStartScore = 4.0;
 
 }  // namespace
 
-Triangulated triangulate(const CameraModel& camera, const Se3& T_prev_cam,
-                         const PixelMatch& match) {
+Triangulated triangulate(const CameraModel& camera, const Se3& T_old_cam, const PixelMatch& match) {
   const Eigen::Vector3d ray = camera.unproject(match.now);
-  const Eigen::Vector2d seen = camera.to_normalized(match.previous);
-  const Eigen::Vector3d a = T_prev_cam.R * ray;
-  const Eigen::Vector3d& t = T_prev_cam.t;
+  const Eigen::Vector2d seen = camera.to_normalized(match.old);
+  const Eigen::Vector3d a = T_old_cam.R * ray;
+  const Eigen::Vector3d& t = T_old_cam.t;
   // (a_xy Z + t_xy) = seen (a_z Z + t_z), two equations for Z.
   const Eigen::Vector2d slope = a.head<2>() - seen * a.z();
   const Eigen::Vector2d rest = seen * t.z() - t.head<2>();
   Triangulated out;
   const double depth = slope.dot(rest) / slope.squaredNorm();
   out.p_cam = depth * ray;
-  const Eigen::Vector3d p_prev = T_prev_cam * out.p_cam;
-  if (!(depth > 0.0) || !(p_prev.z() > 0.0)) return out;
-  out.miss_px = (camera.project(p_prev) - match.previous).norm();
+  const Eigen::Vector3d p_old = T_old_cam * out.p_cam;
+  if (!(depth > 0.0) || !(p_old.z() > 0.0)) return out;
+  out.miss_px = (camera.project(p_old) - match.old).norm();
   out.ok = out.p_cam.allFinite();
   return out;
 }
@@ -33,18 +32,18 @@ PaperPointsCue::PaperPointsCue(const CameraModel& camera, const Eigen::Vector3d&
                                double mu)
     : camera_(camera), normal_cam_(normal_cam), mu_(mu) {}
 
-void PaperPointsCue::collect(std::span<const PixelMatch> matches, const Se3& T_prev_cam) {
+void PaperPointsCue::collect(std::span<const PixelMatch> matches, const Se3& T_old_cam) {
   heights_.clear();
   for (const PixelMatch& match : matches) {
-    const Triangulated point = triangulate(camera_, T_prev_cam, match);
+    const Triangulated point = triangulate(camera_, T_old_cam, match);
     if (!point.ok || point.miss_px > kLargestMissPx) continue;
     if (!heights_.push_back(normal_cam_.dot(point.p_cam))) return;  // (1)
   }
 }
 
 PaperPointsObservation PaperPointsCue::measure(std::span<const PixelMatch> matches,
-                                               const Se3& T_prev_cam) {
-  collect(matches, T_prev_cam);
+                                               const Se3& T_old_cam) {
+  collect(matches, T_old_cam);
   const Vote vote = vote_height({heights_.begin(), heights_.size()}, mu_);
   PaperPointsObservation out;
   out.num_matches = static_cast<int>(matches.size());
@@ -55,9 +54,9 @@ PaperPointsObservation PaperPointsCue::measure(std::span<const PixelMatch> match
   return out;
 }
 
-double PaperPointsCue::search_height(std::span<const PixelMatch> matches, const Se3& T_prev_cam,
+double PaperPointsCue::search_height(std::span<const PixelMatch> matches, const Se3& T_old_cam,
                                      double height_m) {
-  collect(matches, T_prev_cam);
+  collect(matches, T_old_cam);
   const Vote vote = vote_height_any_unit({heights_.begin(), heights_.size()}, mu_, height_m);
   return vote.ok && vote.score >= kLeastStartScore ? vote.height : 0.0;
 }

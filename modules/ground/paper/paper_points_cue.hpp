@@ -1,5 +1,5 @@
 /// Triangulated-points cue of the paper: features of the road region, triangulated between this
-/// image and the previous one, vote for the height over a road of the calibrated normal.
+/// image and an older one, vote for the height over a road of the calibrated normal.
 ///
 /// Frames  cam of the newest image.  Units  that of t.  Memory  kMaxVoters heights in place.
 #pragma once
@@ -20,11 +20,11 @@ inline constexpr std::size_t kMaxVoters = 1024;
 struct Triangulated {
   bool ok = false;  ///< in front of both cameras
   Eigen::Vector3d p_cam = Eigen::Vector3d::Zero();
-  double miss_px = 0.0;  ///< distance to the match in the previous image
+  double miss_px = 0.0;  ///< distance to the match in the older image
 };
 
-/// Depth along the newest image's ray by least squares in the previous image.
-[[nodiscard]] Triangulated triangulate(const CameraModel& camera, const Se3& T_prev_cam,
+/// Depth along the newest image's ray by least squares in the older image.
+[[nodiscard]] Triangulated triangulate(const CameraModel& camera, const Se3& T_old_cam,
                                        const PixelMatch& match);
 
 struct PaperPointsObservation {
@@ -41,13 +41,13 @@ class PaperPointsCue {
   PaperPointsCue(const CameraModel& camera, const Eigen::Vector3d& normal_cam, double mu);
 
   [[nodiscard]] PaperPointsObservation measure(std::span<const PixelMatch> matches,
-                                               const Se3& T_prev_cam);
+                                               const Se3& T_old_cam);
   /// Vote when the unit of t says nothing yet, for a camera at `height_m`. 0 with too few points.
-  [[nodiscard]] double search_height(std::span<const PixelMatch> matches, const Se3& T_prev_cam,
+  [[nodiscard]] double search_height(std::span<const PixelMatch> matches, const Se3& T_old_cam,
                                      double height_m);
 
  private:
-  void collect(std::span<const PixelMatch> matches, const Se3& T_prev_cam);
+  void collect(std::span<const PixelMatch> matches, const Se3& T_old_cam);
 
   CameraModel camera_;
   Eigen::Vector3d normal_cam_;

@@ -15,14 +15,14 @@ constexpr double kLeastOverlap = 0.5;
 
 inline Lanes splat(float v) { return Lanes{} + v; }
 
-/// Rows of the homography and lens of the previous image, in float.
+/// Rows of the homography and lens of the older image, in float.
 struct Warp {
   float g[3][3];
   float fx, fy, cx, cy, k1;
 };
 
-Warp make_warp(const CameraModel& camera, const Se3& T_prev_cam, const Eigen::Vector3d& q) {
-  const Eigen::Matrix3d G = T_prev_cam.R + T_prev_cam.t * q.transpose();
+Warp make_warp(const CameraModel& camera, const Se3& T_old_cam, const Eigen::Vector3d& q) {
+  const Eigen::Matrix3d G = T_old_cam.R + T_old_cam.t * q.transpose();
   Warp w{};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) w.g[i][j] = static_cast<float>(G(i, j));
@@ -109,9 +109,9 @@ void RoadRegion::take(const ImageView& image) {
   }
 }
 
-double RoadRegion::sad(const ImageView& previous, const Se3& T_prev_cam,
+double RoadRegion::sad(const ImageView& old_image, const Se3& T_old_cam,
                        const Eigen::Vector3d& q) const {
-  const Warp warp = make_warp(camera_, T_prev_cam, q);
+  const Warp warp = make_warp(camera_, T_old_cam, q);
   Lanes sum{}, count{};
   for (std::size_t i = 0; i < grey_.size(); i += kLanes) {
     Lanes x, y, grey, upper, lower;
@@ -119,9 +119,9 @@ double RoadRegion::sad(const ImageView& previous, const Se3& T_prev_cam,
     load(y_.data() + i, &y);
     load(grey_.data() + i, &grey);
     Landing at;
-    land(warp, previous, x, y, &at);
-    sample_row(previous, at, 0, &upper);
-    sample_row(previous, at, 1, &lower);
+    land(warp, old_image, x, y, &at);
+    sample_row(old_image, at, 0, &upper);
+    sample_row(old_image, at, 1, &lower);
     const Lanes difference = upper + at.fv * (lower - upper) - grey;
     const Lanes size = difference < 0.0F ? -difference : difference;
     const IntLanes usable = at.inside & (grey == grey);  // the padding is NaN

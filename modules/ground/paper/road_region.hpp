@@ -1,8 +1,8 @@
 /// The region of interest of the paper, middle fifth of the lower third, and how well it fits the
-/// previous image under a plane.
+/// older image under a plane.
 ///
 /// Every pixel of the region in the newest image is carried by the plane's homography (6) into the
-/// previous one, G = R + t n^T / h with (R, t) = T_prev_cam and n pointing down, and compared
+/// older one, G = R + t n^T / h with (R, t) = T_old_cam and n pointing down, and compared
 /// bilinearly. The radial term that rectification left is applied on both sides.
 ///
 /// Frames  cam of the newest image.  Units  that of t; grey levels.
@@ -40,9 +40,9 @@ class RoadRegion {
   /// Takes the newest image's grey values. @pre image has the camera's size
   void take(const ImageView& image);
 
-  /// Mean absolute difference over the region to `previous`, under the plane q = n / h; NaN when
+  /// Mean absolute difference over the region to `old_image`, under the plane q = n / h; NaN when
   /// less than half of the region lands in it.
-  [[nodiscard]] double sad(const ImageView& previous, const Se3& T_prev_cam,
+  [[nodiscard]] double sad(const ImageView& old_image, const Se3& T_old_cam,
                            const Eigen::Vector3d& q) const;
 
  private:

@@ -24,12 +24,14 @@ struct Features {
   cv::Mat descriptors;
 };
 
+constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+
 struct Nearest {
-  int index = -1;
+  std::size_t index = kNobody;
   float distance = std::numeric_limits<float>::infinity();
   float second = std::numeric_limits<float>::infinity();
 
-  void offer(int i, float d) {
+  void offer(std::size_t i, float d) {
     if (d < distance) {
       second = distance;
       distance = d;
@@ -40,9 +42,9 @@ struct Nearest {
   }
 };
 
-float squared_distance(const cv::Mat& a, int i, const cv::Mat& b, int j) {
-  const float* p = a.ptr<float>(i);
-  const float* q = b.ptr<float>(j);
+float squared_distance(const cv::Mat& a, std::size_t i, const cv::Mat& b, std::size_t j) {
+  const float* p = a.ptr<float>(static_cast<int>(i));
+  const float* q = b.ptr<float>(static_cast<int>(j));
   float sum = 0.0F;
   for (int k = 0; k < a.cols; ++k) sum += (p[k] - q[k]) * (p[k] - q[k]);
   return sum;
@@ -51,39 +53,28 @@ float squared_distance(const cv::Mat& a, int i, const cv::Mat& b, int j) {
 }  // namespace
 
 struct SiftMatcher::Impl {
-  explicit Impl(const PixelBox& box_in)
-      : box(box_in), sift(cv::SIFT::create(0, kLayersPerOctave, kContrast, kEdge, kSigma)) {
+  Impl(const PixelBox& box_in, std::size_t num_places)
+      : box(box_in),
+        sift(cv::SIFT::create(0, kLayersPerOctave, kContrast, kEdge, kSigma)),
+        places(num_places) {
     cv::setNumThreads(1);
   }
 
-  void detect(const ImageView& image, Features* out) const;
-  void match();
-
   PixelBox box;
   cv::Ptr<cv::SIFT> sift;
-  Features now, previous;
-  bool has_previous = false;
+  std::vector<Features> places;
   std::vector<Nearest> forward, backward;
   std::vector<PixelMatch> matches;
 };
 
-SiftMatcher::SiftMatcher(const PixelBox& box) : impl_(std::make_unique<Impl>(box)) {}
+SiftMatcher::SiftMatcher(const PixelBox& box, std::size_t num_places)
+    : impl_(std::make_unique<Impl>(box, num_places)) {}
 
 SiftMatcher::~SiftMatcher() = default;
 
-void SiftMatcher::forget() { impl_->has_previous = false; }
-
-std::span<const PixelMatch> SiftMatcher::match(const ImageView& image) {
-  Impl& m = *impl_;
-  m.matches.clear();
-  std::swap(m.now, m.previous);
-  m.detect(image, &m.now);
-  if (m.has_previous) m.match();
-  m.has_previous = true;
-  return m.matches;
-}
-
-void SiftMatcher::Impl::detect(const ImageView& image, Features* out) const {
+void SiftMatcher::detect(std::size_t place, const ImageView& image) {
+  const PixelBox& box = impl_->box;
+  Features* out = &impl_->places[place];
   const int u0 = std::max(0, box.u0 - kMarginPx), v0 = std::max(0, box.v0 - kMarginPx);
   const int u1 = std::min(image.width_px, box.u1 + kMarginPx);
   const int v1 = std::min(image.height_px, box.v1 + kMarginPx);
@@ -91,39 +82,42 @@ void SiftMatcher::Impl::detect(const ImageView& image, Features* out) const {
   auto* data = const_cast<std::uint8_t*>(image.row(v0) + u0);
   const cv::Mat view(v1 - v0, u1 - u0, CV_8UC1, data, static_cast<std::size_t>(image.stride_bytes));
   out->points.clear();
-  sift->detect(view, out->points);
+  impl_->sift->detect(view, out->points);
   const auto outside = [&](const cv::KeyPoint& p) {
     return !box.contains(static_cast<double>(p.pt.x) + u0, static_cast<double>(p.pt.y) + v0);
   };
   out->points.erase(std::remove_if(out->points.begin(), out->points.end(), outside),
                     out->points.end());
-  sift->compute(view, out->points, out->descriptors);
+  impl_->sift->compute(view, out->points, out->descriptors);
   for (cv::KeyPoint& p : out->points) {
     p.pt.x += static_cast<float>(u0);
     p.pt.y += static_cast<float>(v0);
   }
 }
 
-/// Mutual nearest neighbours that pass the ratio test.
-void SiftMatcher::Impl::match() {
-  const int num_now = now.descriptors.rows, num_previous = previous.descriptors.rows;
-  forward.assign(static_cast<std::size_t>(num_now), Nearest{});
-  backward.assign(static_cast<std::size_t>(num_previous), Nearest{});
-  for (int i = 0; i < num_now; ++i) {
-    for (int j = 0; j < num_previous; ++j) {
-      const float d = squared_distance(now.descriptors, i, previous.descriptors, j);
-      forward[static_cast<std::size_t>(i)].offer(j, d);
-      backward[static_cast<std::size_t>(j)].offer(i, d);
+std::span<const PixelMatch> SiftMatcher::match(std::size_t now, std::size_t old) {
+  Impl& m = *impl_;
+  const Features& a = m.places[now];
+  const Features& b = m.places[old];
+  m.matches.clear();
+  m.forward.assign(a.points.size(), Nearest{});
+  m.backward.assign(b.points.size(), Nearest{});
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    for (std::size_t j = 0; j < b.points.size(); ++j) {
+      const float d = squared_distance(a.descriptors, i, b.descriptors, j);
+      m.forward[i].offer(j, d);
+      m.backward[j].offer(i, d);
     }
   }
-  for (int i = 0; i < num_now; ++i) {
-    const Nearest& best = forward[static_cast<std::size_t>(i)];
-    if (best.index < 0 || !(best.distance < kRatio * kRatio * best.second)) continue;
-    if (backward[static_cast<std::size_t>(best.index)].index != i) continue;
-    const cv::Point2f a = now.points[static_cast<std::size_t>(i)].pt;
-    const cv::Point2f b = previous.points[static_cast<std::size_t>(best.index)].pt;
-    matches.push_back({Eigen::Vector2d(a.x, a.y), Eigen::Vector2d(b.x, b.y)});
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    const Nearest& best = m.forward[i];
+    if (best.index == kNobody || !(best.distance < kRatio * kRatio * best.second)) continue;
+    if (m.backward[best.index].index != i) continue;
+    const cv::Point2f p = a.points[i].pt;
+    const cv::Point2f q = b.points[best.index].pt;
+    m.matches.push_back({Eigen::Vector2d(p.x, p.y), Eigen::Vector2d(q.x, q.y)});
   }
+  return m.matches;
 }
 
 }  // namespace plumb

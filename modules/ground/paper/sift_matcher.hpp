@@ -1,4 +1,4 @@
-/// SIFT features of the road region, matched to those of the previous image.
+/// SIFT features of the road region in the last images, and matches between two of them.
 ///
 /// The only OpenCV of the ground module, and the only part of it that uses the heap after
 /// construction: OpenCV's detector sizes its scale space and its lists by itself, for every image.
@@ -18,22 +18,22 @@ namespace plumb {
 
 struct PixelMatch {
   Eigen::Vector2d now;
-  Eigen::Vector2d previous;
+  Eigen::Vector2d old;
 };
 
 class SiftMatcher {
  public:
-  explicit SiftMatcher(const PixelBox& box);
+  /// Room for the features of `num_places` images.
+  SiftMatcher(const PixelBox& box, std::size_t num_places);
   ~SiftMatcher();
   SiftMatcher(const SiftMatcher&) = delete;
   SiftMatcher& operator=(const SiftMatcher&) = delete;
 
-  /// Finds the features of `image` and keeps them for the next call; their matches to the image
-  /// before it are valid until then. @pre the box lies in the image
-  std::span<const PixelMatch> match(const ImageView& image);
+  /// Finds the features of `image` and keeps them at `place`. @pre the box lies in the image
+  void detect(std::size_t place, const ImageView& image);
 
-  /// What comes next has no previous image.
-  void forget();
+  /// Mutual nearest neighbours that pass Lowe's ratio test; valid until the next call.
+  std::span<const PixelMatch> match(std::size_t now, std::size_t old);
 
  private:
   struct Impl;
