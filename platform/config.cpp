@@ -160,6 +160,8 @@ void ConfigFile::read(const char* key, std::string& value,
   value = text;
 }
 
+bool ConfigFile::has(const char* key) const { return impl_->root.at_path(key).node() != nullptr; }
+
 void ConfigFile::refuse_unread() const {
   std::vector<Leaf> leaves = leaves_of(impl_->root);
   std::stable_sort(leaves.begin(), leaves.end(),
@@ -192,10 +194,14 @@ void ConfigWriter::operator()(const char* key, const std::string& value,
 }
 
 std::string ConfigWriter::text() const {
-  std::string out =
-      "# Every setting of every plumb-* program, with its default. A file may hold any part of "
-      "it;\n"
-      "# what it leaves out keeps the default. Written by: plumb-vo --print-config\n";
+  return "# Every setting of every plumb-* program, with its default. A file may hold any part of "
+         "it;\n"
+         "# what it leaves out keeps the default. Written by: plumb-vo --print-config\n" +
+         sections();
+}
+
+std::string ConfigWriter::sections() const {
+  std::string out;
   for (const auto& [name, lines] : sections_) {
     out += name.empty() ? "" : "\n[" + name + "]\n";
     out += lines;

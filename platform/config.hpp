@@ -35,6 +35,9 @@ class ConfigFile {
   /// `value` must be one of `choices`.
   void read(const char* key, std::string& value, const std::vector<std::string>& choices);
 
+  /// Whether the file has a dotted key.
+  [[nodiscard]] bool has(const char* key) const;
+
   /// Throws ConfigError for the first key that nobody read, with its line.
   void refuse_unread() const;
 
@@ -88,6 +91,8 @@ class ConfigWriter {
 
   /// The whole text: one section per key prefix, in order of first appearance.
   [[nodiscard]] std::string text() const;
+  /// The same without the remark at its head.
+  [[nodiscard]] std::string sections() const;
 
   /// Shortest text that reads back to the same number; `whole`: without exponent, and without ".0".
   static std::string number(double value, bool whole);

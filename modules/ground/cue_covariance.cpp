@@ -53,15 +53,27 @@ Eigen::Matrix3d FloorCovariance::dense(const DenseObservation& dense,
   cov(1, 1) += kDenseTiltFloorStd * kDenseTiltFloorStd;
   cov(2, 2) += kDenseLnHeightFloorStd * kDenseLnHeightFloorStd;
   const double doubt = kSureCorrelation / std::clamp(dense.ncc, 0.1, kSureCorrelation);
-  return repetition(context) * doubt * doubt * doubt * doubt * cov;
+  return doubt * doubt * doubt * doubt * cov;
 }
 
-double FloorCovariance::points(const PointsObservation& points, const CueContext& context) const {
-  return repetition(context) * kPointsLnHeightStd * kPointsLnHeightStd *
-         (1.0 + kPointsHalfTrust / points.num_inliers);
+double FloorCovariance::points(const PointsObservation& points,
+                               const CueContext& /*context*/) const {
+  return kPointsLnHeightStd * kPointsLnHeightStd * (1.0 + kPointsHalfTrust / points.num_inliers);
 }
 
-double FloorCovariance::travel(const Travel& /*travel*/) const { return kTravelStd * kTravelStd; }
+double FloorCovariance::travel(const Travel& /*travel*/, const CueContext& /*context*/) const {
+  return kTravelStd * kTravelStd;
+}
+
+double FloorCovariance::dense_repetition(const CueContext& context) const {
+  return repetition(context);
+}
+
+double FloorCovariance::points_repetition(const CueContext& context) const {
+  return repetition(context);
+}
+
+double FloorCovariance::travel_repetition(const CueContext& /*context*/) const { return 1.0; }
 
 double FloorCovariance::dense_quality(const DenseObservation& dense) const {
   return dense.ok ? std::clamp(dense.ncc, 0.0, 1.0) : 0.0;

@@ -20,28 +20,36 @@ struct CueContext {
 class CueCovariance {
  public:
   virtual ~CueCovariance() = default;
-  /// Of (n1, n3, ln h) out of the dense cue. @pre dense.ok
+  /// Of (n1, n3, ln h) out of the dense cue, in this frame alone. @pre dense.ok
   [[nodiscard]] virtual Eigen::Matrix3d dense(const DenseObservation& dense,
                                               const CueContext& context) const = 0;
   /// Of ln(n . centre). @pre points.ok
   [[nodiscard]] virtual double points(const PointsObservation& points,
                                       const CueContext& context) const = 0;
   /// Of n . direction. @pre travel.valid
-  [[nodiscard]] virtual double travel(const Travel& travel) const = 0;
+  [[nodiscard]] virtual double travel(const Travel& travel, const CueContext& context) const = 0;
+  /// How many neighbouring images share one independent error, at least 1: a filter over images takes the cue's
+  /// variance that many times.
+  [[nodiscard]] virtual double dense_repetition(const CueContext& context) const = 0;
+  [[nodiscard]] virtual double points_repetition(const CueContext& context) const = 0;
+  [[nodiscard]] virtual double travel_repetition(const CueContext& context) const = 0;
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
   [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
   [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
 };
 
-/// Pixel noise plus a floor for what pixel noise does not explain: pose error, heave and road
-/// shape.
+/// Set by hand: pixel noise plus a floor for what pixel noise does not explain, pose error, heave
+/// and road shape. `ground.covariance = "fixed"`, and what trained models are held against.
 class FloorCovariance final : public CueCovariance {
  public:
   [[nodiscard]] Eigen::Matrix3d dense(const DenseObservation& dense,
                                       const CueContext& context) const override;
   [[nodiscard]] double points(const PointsObservation& points,
                               const CueContext& context) const override;
-  [[nodiscard]] double travel(const Travel& travel) const override;
+  [[nodiscard]] double travel(const Travel& travel, const CueContext& context) const override;
+  [[nodiscard]] double dense_repetition(const CueContext& context) const override;
+  [[nodiscard]] double points_repetition(const CueContext& context) const override;
+  [[nodiscard]] double travel_repetition(const CueContext& context) const override;
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
 };

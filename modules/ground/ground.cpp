@@ -10,9 +10,11 @@
 #include "modules/ground/ego_motion.hpp"
 #include "modules/ground/ground_sight.hpp"
 #include "modules/ground/image_ring.hpp"
+#include "modules/ground/learned_covariance.hpp"
 #include "modules/ground/plane_angles.hpp"
 #include "modules/ground/plane_filter.hpp"
 #include "modules/ground/points_cue.hpp"
+#include "modules/ground/seen_height.hpp"
 #include "modules/ground/travel.hpp"
 
 namespace plumb {
@@ -50,19 +52,25 @@ CueObservation absent_cue() {
   return {CueStatus::kAbsent, kNan, kNan, kNan, kNan, kNan, kNan, 0.0};
 }
 
-/// The plane's height that fits the dense cue best when its normal is `n`.
-double height_given_normal(const DenseObservation& dense, const Eigen::Vector3d& n) {
-  return n.dot(dense.information * n) / n.dot(dense.information * dense.q);
+std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
+                                                     const GroundModel& model) {
+  // The built-in numbers are not trained yet.
+  const bool untrained = config.model_file.empty();
+  if (config.covariance == "fixed" || untrained) return std::make_unique<FloorCovariance>();
+  return std::make_unique<LearnedCovariance>(model);
 }
 
 }  // namespace
 
 struct GroundEstimator::Impl {
-  Impl(const GroundConfig& config_in, const CameraModel& camera)
+  Impl(const GroundConfig& config_in, const CameraModel& camera, const GroundModel& model)
       : config(config_in),
         camera_height_m(height_m_of(config_in, camera)),
         ring(camera),
-        dense_cue(ring.camera(), ring.num_levels()) {}
+        dense_cue(ring.camera(), ring.num_levels()),
+        covariance(make_covariance(config_in, model)) {
+    if (config.covariance != "fixed") bias = model.bias;
+  }
 
   void take_image(const GroundInput& input);
   void follow_scale_epoch(const VoOutput& vo);
@@ -75,6 +83,7 @@ struct GroundEstimator::Impl {
   void start_filter();
   void write_cues();
   void write_plane(const VoOutput& vo, bool has_image);
+  void write_height();
   [[nodiscard]] GroundReason reason_held(const VoOutput& vo, bool has_image) const;
   [[nodiscard]] ScaleEstimate scale() const;
   [[nodiscard]] RoadShape road_shape() const;
@@ -84,7 +93,8 @@ struct GroundEstimator::Impl {
   ImageRing ring;
   DenseCue dense_cue;
   PointsCue points_cue;
-  FloorCovariance covariance;
+  std::unique_ptr<const CueCovariance> covariance;
+  PlaneBias bias;
   PlaneFilter filter;
   EgoMotion ego;
   std::int32_t scale_epoch = 0;
@@ -107,8 +117,9 @@ struct GroundEstimator::Impl {
   Frame frame;
 };
 
-GroundEstimator::GroundEstimator(const GroundConfig& config, const CameraModel& camera)
-    : impl_(std::make_unique<Impl>(config, camera)) {}
+GroundEstimator::GroundEstimator(const GroundConfig& config, const CameraModel& camera,
+                                 const GroundModel& model)
+    : impl_(std::make_unique<Impl>(config, camera, model)) {}
 
 GroundEstimator::~GroundEstimator() = default;
 
@@ -210,7 +221,7 @@ void GroundEstimator::Impl::measure_dense(const VoOutput& vo) {
                              road_shape()};
   frame.dense = dense_cue.measure(*frame.image, pairs, request);
   const double least = filter.started() ? kLeastDenseQuality : kStartDenseQuality;
-  const bool good = frame.dense.ok && covariance.dense_quality(frame.dense) >= least;
+  const bool good = frame.dense.ok && covariance->dense_quality(frame.dense) >= least;
   frame.dense_status = good ? CueStatus::kUsed : CueStatus::kFailed;
 }
 
@@ -235,7 +246,7 @@ bool GroundEstimator::Impl::search_start(const VoOutput& vo) {
     if (frame.travel.chord_length <= kShortestChordRatio * frame.height) continue;
     frame.dense = {};  // a height without a pair of images must not show the last one's sight
     measure_dense(vo);
-    if (covariance.dense_quality(frame.dense) >= kLeastDenseQuality) seen[i] = frame.dense;
+    if (covariance->dense_quality(frame.dense) >= kLeastDenseQuality) seen[i] = frame.dense;
   }
   int most = 1;
   for (const DenseObservation& one : seen) {
@@ -275,14 +286,18 @@ void GroundEstimator::Impl::fuse() {
   if (!filter.started()) start_filter();
   if (!filter.started()) return;
   filter.observe_level_roll();
-  filter.observe_travel(frame.travel.direction, covariance.travel(frame.travel));
+  const CueContext& context = frame.context;
+  filter.observe_travel(frame.travel.direction, covariance->travel_repetition(context) *
+                                                    covariance->travel(frame.travel, context));
   if (frame.dense_status == CueStatus::kUsed &&
-      !filter.observe_plane(state_of_plane(frame.dense.q),
-                            covariance.dense(frame.dense, frame.context))) {
+      !filter.observe_plane(
+          state_of_plane(frame.dense.q),
+          covariance->dense_repetition(context) * covariance->dense(frame.dense, context))) {
     frame.dense_status = CueStatus::kGated;
   }
   if (frame.points_status == CueStatus::kUsed &&
-      !filter.observe_point(frame.points.centre, covariance.points(frame.points, frame.context))) {
+      !filter.observe_point(frame.points.centre, covariance->points_repetition(context) *
+                                                     covariance->points(frame.points, context))) {
     frame.points_status = CueStatus::kGated;
   }
   filter.end_frame(frame.height_measured(), frame.height_refused());
@@ -295,23 +310,23 @@ void GroundEstimator::Impl::write_cues() {
   dense.status = frame.dense_status;
   if (frame.dense.ok) {
     const Eigen::Vector3d state = state_of_plane(frame.dense.q);
-    const Eigen::Matrix3d cov = covariance.dense(frame.dense, frame.context);
+    const Eigen::Matrix3d cov = covariance->dense(frame.dense, frame.context);
     const double height = std::exp(state(2));
     dense = {
         frame.dense_status,          height,    state(0),  state(1),
-        height * height * cov(2, 2), cov(0, 0), cov(1, 1), covariance.dense_quality(frame.dense)};
+        height * height * cov(2, 2), cov(0, 0), cov(1, 1), covariance->dense_quality(frame.dense)};
   }
   CueObservation& points = out.plane.cues[kCuePoints];
   points.status = frame.points_status;
   if (frame.points.ok) {
     points.height = std::exp(frame.points.ln_height);
     points.height_var =
-        points.height * points.height * covariance.points(frame.points, frame.context);
-    points.quality = covariance.points_quality(frame.points);
+        points.height * points.height * covariance->points(frame.points, frame.context);
+    points.quality = covariance->points_quality(frame.points);
   }
 }
 
-/// height_m: the heights that this frame's cues saw, weighted and seen along the fused normal,
+/// height_m (write_height): the heights that this frame's cues saw, weighted and seen along the fused normal,
 /// times the filtered scale. It equals the nominal camera height when the frame agrees with the
 /// filter, and differs with the road under the camera and with the cues' noise.
 void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
@@ -333,26 +348,23 @@ void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
   plane.pitch_rad = pitch_of(plane.normal_cam);
   plane.roll_rad = roll_of(plane.normal_cam);
 
-  double information = 0.0;
-  double sum = 0.0;
-  const auto add = [&](double ln_height, double var) {
-    information += 1.0 / var;
-    sum += ln_height / var;
-  };
-  if (frame.dense_status == CueStatus::kUsed) {
-    add(std::log(height_given_normal(frame.dense, plane.normal_cam)),
-        covariance.dense(frame.dense, frame.context)(2, 2));
-  }
-  if (frame.points_status == CueStatus::kUsed) {
-    add(std::log(plane.normal_cam.dot(frame.points.centre)),
-        covariance.points(frame.points, frame.context));
-  }
-  const double ln_ratio = measured ? sum / information - filter.state()(2) : 0.0;
-  plane.height_m = camera_height_m * std::exp(ln_ratio);
-
   const Eigen::Matrix2d J = angles_jacobian(plane.normal_cam);
   plane.cov.topLeftCorner<2, 2>() = J * filter.cov().topLeftCorner<2, 2>() * J.transpose();
-  plane.cov(2, 2) = filter.cov()(2, 2) + (measured ? 1.0 / information : 0.0);
+  plane.cov(0, 0) += bias.pitch_std_rad * bias.pitch_std_rad;
+  plane.cov(1, 1) += bias.roll_std_rad * bias.roll_std_rad;
+  write_height();
+}
+
+void GroundEstimator::Impl::write_height() {
+  PlaneOutput& plane = out.plane;
+  const Eigen::Matrix3d& P = filter.cov();
+  plane.height_m = camera_height_m;
+  plane.cov(2, 2) = P(2, 2) + bias.ln_height_std * bias.ln_height_std;
+  if (!frame.height_measured()) return;
+  const SeenHeight seen = see_height(frame, *covariance, filter.state());
+  const Eigen::RowVector3d g(seen.slope(0), seen.slope(1), -1.0);
+  plane.height_m *= std::exp(seen.ln_height - filter.state()(2));
+  plane.cov(2, 2) += seen.var + g * P * g.transpose() - P(2, 2);
 }
 
 GroundReason GroundEstimator::Impl::reason_held(const VoOutput& vo, bool has_image) const {
@@ -371,9 +383,10 @@ ScaleEstimate GroundEstimator::Impl::scale() const {
   if (!scale.known) return scale;
   scale.measured_now = frame.height_measured();
   scale.log_scale = std::log(camera_height_m) - filter.state()(2);
-  scale.var = filter.cov()(2, 2);
+  const double bias_var = bias.ln_scale_std * bias.ln_scale_std;
+  scale.var = filter.cov()(2, 2) + bias_var;
   if (frame.var_before > 0.0) {
-    scale.kept_ratio = std::clamp(scale.var / frame.var_before, 0.0, 1.0);
+    scale.kept_ratio = std::clamp(scale.var / (frame.var_before + bias_var), 0.0, 1.0);
   }
   return scale;
 }

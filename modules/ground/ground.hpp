@@ -21,6 +21,7 @@
 #include "modules/geometry/se3.hpp"
 #include "modules/geometry/stage_probe.hpp"
 #include "modules/ground/ground_config.hpp"
+#include "modules/ground/ground_model.hpp"
 #include "modules/imaging/image_view.hpp"
 #include "modules/vo/vo.hpp"
 
@@ -145,7 +146,8 @@ class GroundAlgorithm {
 class GroundEstimator final : public GroundAlgorithm {
  public:
   /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
-  GroundEstimator(const GroundConfig& config, const CameraModel& camera);
+  GroundEstimator(const GroundConfig& config, const CameraModel& camera,
+                  const GroundModel& model = built_in_ground_model());
   ~GroundEstimator() override;
 
   const GroundOutput& update(const GroundInput& input, StageProbe& probe) override;

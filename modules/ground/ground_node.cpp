@@ -6,8 +6,9 @@
 
 namespace plumb {
 
-GroundNode::GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink)
-    : config_(config), probe_(probe), sink_(std::move(sink)) {}
+GroundNode::GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink,
+                       const GroundModel& model)
+    : config_(config), model_(model), probe_(probe), sink_(std::move(sink)) {}
 
 const char* GroundNode::take_calibration(const camera_calibration_t& message) {
   CameraModel camera;
@@ -19,7 +20,7 @@ const char* GroundNode::take_calibration(const camera_calibration_t& message) {
   camera_ = camera;
   decoder_.emplace(camera.width_px, camera.height_px);
   images_.emplace(camera.width_px, camera.height_px);
-  algorithm_ = make_ground_algorithm(config_, camera);
+  algorithm_ = make_ground_algorithm(config_, camera, model_);
   return nullptr;
 }
 

@@ -29,7 +29,8 @@ class GroundNode {
   using Sink = std::function<void(const ground_plane_t&, const ego_motion_t&)>;
 
   /// `probe` outlives the node; a "decode" stage is marked before the estimator's own.
-  GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink);
+  GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink,
+             const GroundModel& model = built_in_ground_model());
 
   /// Null when taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
@@ -58,6 +59,7 @@ class GroundNode {
   void publish(const GroundOutput& output);
 
   GroundConfig config_;
+  GroundModel model_;
   StageProbe* probe_;
   Sink sink_;
   CameraModel camera_;

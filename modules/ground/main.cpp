@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "modules/config.hpp"
+#include "modules/ground/ground_model_source.hpp"
 #include "modules/ground/ground_node.hpp"
 #include "platform/clock.hpp"
 #include "platform/process.hpp"
@@ -12,8 +13,10 @@ class GroundProcess {
  public:
   GroundProcess(plumb::Process& process, const plumb::GroundConfig& config)
       : process_(process),
-        node_(config, &process.timer(),
-              [this](const auto& plane, const auto& ego) { publish(plane, ego); }),
+        node_(
+            config, &process.timer(),
+            [this](const auto& plane, const auto& ego) { publish(plane, ego); },
+            plumb::load_ground_model(config.model_file)),
         plane_(process.bus(), plumb::kGroundPlane),
         ego_(process.bus(), plumb::kEgoMotion),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,

@@ -1,5 +1,6 @@
 #include "tools/replay/replay.hpp"
 
+#include "modules/ground/ground_model_source.hpp"
 #include "modules/imaging/image_wire.hpp"
 #include "platform/bounded_decode.hpp"
 #include "platform/channels.hpp"
@@ -8,11 +9,13 @@ namespace plumb {
 
 Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink)
     : vo_(config.vo, seed, &vo_timer_),
-      ground_(config.ground, &ground_timer_,
-              [this](const ground_plane_t& plane, const ego_motion_t& ego) {
-                plane_ = &plane;
-                ego_ = &ego;
-              }),
+      ground_(
+          config.ground, &ground_timer_,
+          [this](const ground_plane_t& plane, const ego_motion_t& ego) {
+            plane_ = &plane;
+            ego_ = &ego;
+          },
+          load_ground_model(config.ground.model_file)),
       can_(config.can),
       can_sink_(can_sink),
       sink_(std::move(sink)) {}

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "modules/geometry/pose_wire.hpp"
+#include "modules/ground/learned_covariance.hpp"
 #include "modules/ground/plane_filter.hpp"
 
 namespace plumb {
 namespace {
 
-// A road that shows no texture in one direction still has a variance there.
-constexpr double kLeastInformation = 1e-3;
 constexpr double kShortestTrueStep_m = 0.1;
 
 double given_variance(const Eigen::Matrix3d& cov) { return 1.0 / cov.inverse()(2, 2); }
@@ -20,10 +19,6 @@ Eigen::Vector3d true_state(const CueReference& reference) {
 }
 
 }  // namespace
-
-Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information) {
-  return -state_information.block<1, 2>(2, 0) / state_information(2, 2);
-}
 
 void write_dense(const GroundSight& sight, const CueReference& reference, Sample* sample) {
   const DenseObservation& dense = sight.dense;
@@ -36,9 +31,7 @@ void write_dense(const GroundSight& sight, const CueReference& reference, Sample
   sample->dense_num_pixels = dense.num_pixels;
 
   const Eigen::Vector3d state = state_of_plane(dense.q);
-  const Eigen::Matrix3d J = plane_jacobian(state);
-  const Eigen::Matrix3d information =
-      J.transpose() * dense.information * J + kLeastInformation * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d information = state_information(dense);
   const Eigen::Matrix3d pixel = information.inverse();
   sample->dense_pixel_var_n1 = pixel(0, 0);
   sample->dense_pixel_var_n3 = pixel(1, 1);
@@ -86,9 +79,29 @@ void write_travel(const GroundSight& sight, const CueReference& reference, Sampl
   if (!travel.valid || !sight.searched) return;
   sample->travel_chord_ratio = travel.chord_length / std::exp(reference.ln_height);
   sample->travel_num_frames = travel.num_chord_frames;
-  sample->travel_hand_var = FloorCovariance().travel(travel);
+  sample->travel_hand_var = FloorCovariance().travel(travel, sight.context);
   if (reference.plane != nullptr)
     sample->travel_err = reference.plane->normal_cam.dot(travel.direction);
+}
+
+void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,
+                 const TruePlane* truth, Sample* sample) {
+  const CueObservation& dense = plane.cues[kCueDense];
+  if (dense.status != CueStatus::kAbsent && dense.num_features == 3) {
+    sample->paper_width_height = dense.features[0];
+    sample->paper_width_n1 = dense.features[1];
+    sample->paper_width_n3 = dense.features[2];
+    sample->paper_err_height = dense.height * metres_per_vo - true_height_m;
+    if (truth != nullptr) {
+      sample->paper_err_n1 = dense.n1 - truth->normal_cam.x();
+      sample->paper_err_n3 = dense.n3 - truth->normal_cam.z();
+    }
+  }
+  const CueObservation& points = plane.cues[kCuePoints];
+  if (points.status != CueStatus::kAbsent && points.num_features == 1) {
+    sample->paper_vote = points.features[0];
+    sample->paper_err_points = points.height * metres_per_vo - true_height_m;
+  }
 }
 
 void write_plane_output(const ground_plane_t& plane, const TruePlane& truth, Sample* sample) {

@@ -22,12 +22,13 @@ struct CueReference {
   Eigen::Matrix2d normal_cov = Eigen::Matrix2d::Zero();   ///< of (n1, n3); zero for the true one
 };
 
-/// d(ln h given the normal) / d(n1, n3) of what the dense cue saw.
-[[nodiscard]] Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information);
-
 void write_dense(const GroundSight& sight, const CueReference& reference, Sample* sample);
 void write_points(const GroundSight& sight, const CueReference& reference, Sample* sample);
 void write_travel(const GroundSight& sight, const CueReference& reference, Sample* sample);
+
+/// The published method's cues; `truth` may be null.
+void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,
+                 const TruePlane* truth, Sample* sample);
 
 /// Height, pitch and roll. @pre plane has a true plane beside it
 void write_plane_output(const ground_plane_t& plane, const TruePlane& truth, Sample* sample);

@@ -54,10 +54,11 @@ bool Sampler::take_truth(const VoOutput& vo, Sample* sample, Reference* referenc
 }
 
 void Sampler::add(const SampledFrame& frame) {
-  const GroundSight& sight = *frame.sight;
+  const GroundSight* sight = frame.sight;
   Sample sample;
   Reference scale;
-  if (!sight.filter_started || !take_truth(*frame.vo, &sample, &scale)) return;
+  if (sight != nullptr && !sight->filter_started) return;
+  if (!take_truth(*frame.vo, &sample, &scale)) return;
   sample.seq = static_cast<double>(frame.vo->seq);
   sample.time_s = 1e-6 * static_cast<double>(frame.vo->capture_us);
 
@@ -69,25 +70,34 @@ void Sampler::add(const SampledFrame& frame) {
     sample.true_n3 = plane->normal_cam.z();
     write_plane_output(*frame.plane, *plane, &sample);
   }
-  if (sight.searched) {
-    sample.turn_ratio = sight.context.turn_ratio;
-    sample.step_ratio = sight.context.step_ratio;
-  }
   const auto motion = truth_->motion(frame.vo->prev_seq, frame.vo->seq);
   if (motion) write_motion_output(*frame.ego, *motion, &sample);
-  if (scale.known) {
-    CueReference reference;
-    reference.ln_height = std::log(sample.true_height_m) - scale.ln_scale;
-    reference.plane = plane;
-    reference.normal_cam = plane != nullptr ? plane->normal_cam : normal_of_state(sight.state);
-    if (plane == nullptr) reference.normal_cov = sight.cov.topLeftCorner<2, 2>();
-    write_dense(sight, reference, &sample);
-    write_points(sight, reference, &sample);
-    write_travel(sight, reference, &sample);
+  if (scale.known && frame.ego->log_scale_std > 0.0) {
     sample.out_scale_err = frame.ego->log_scale - scale.ln_scale;
     sample.out_scale_var = frame.ego->log_scale_std * frame.ego->log_scale_std;
   }
+  if (scale.known && sight != nullptr) add_cues(*sight, scale.ln_scale, plane, &sample);
+  if (scale.known && sight == nullptr) {
+    write_paper(frame.output->plane, std::exp(scale.ln_scale), sample.true_height_m, plane,
+                &sample);
+  }
   samples_.push_back(sample);
+}
+
+void Sampler::add_cues(const GroundSight& sight, double ln_scale, const TruePlane* plane,
+                       Sample* sample) const {
+  if (sight.searched) {
+    sample->turn_ratio = sight.context.turn_ratio;
+    sample->step_ratio = sight.context.step_ratio;
+  }
+  CueReference reference;
+  reference.ln_height = std::log(sample->true_height_m) - ln_scale;
+  reference.plane = plane;
+  reference.normal_cam = plane != nullptr ? plane->normal_cam : normal_of_state(sight.state);
+  if (plane == nullptr) reference.normal_cov = sight.cov.topLeftCorner<2, 2>();
+  write_dense(sight, reference, sample);
+  write_points(sight, reference, sample);
+  write_travel(sight, reference, sample);
 }
 
 std::vector<Sample> Sampler::take() {

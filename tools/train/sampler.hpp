@@ -17,7 +17,8 @@ namespace plumb {
 /// What the chain said about one image.
 struct SampledFrame {
   const VoOutput* vo = nullptr;
-  const GroundSight* sight = nullptr;
+  const GroundSight* sight = nullptr;  ///< null in paper mode
+  const GroundOutput* output = nullptr;
   const ground_plane_t* plane = nullptr;
   const ego_motion_t* ego = nullptr;
 };
@@ -36,6 +37,8 @@ class Sampler {
  private:
   struct Reference;
   [[nodiscard]] bool take_truth(const VoOutput& vo, Sample* sample, Reference* reference);
+  void add_cues(const GroundSight& sight, double ln_scale, const TruePlane* plane,
+                Sample* sample) const;
 
   const TruthTrack* truth_;
   double nominal_height_m_;

@@ -5,9 +5,10 @@
 namespace plumb {
 
 std::unique_ptr<GroundAlgorithm> make_ground_algorithm(const GroundConfig& config,
-                                                       const CameraModel& camera) {
-  if (config.mode == "paper") return std::make_unique<PaperGround>(config, camera);
-  return std::make_unique<GroundEstimator>(config, camera);
+                                                       const CameraModel& camera,
+                                                       const GroundModel& model) {
+  if (config.mode == "paper") return std::make_unique<PaperGround>(config, camera, model.paper);
+  return std::make_unique<GroundEstimator>(config, camera, model);
 }
 
 }  // namespace plumb

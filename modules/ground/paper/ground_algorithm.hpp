@@ -8,7 +8,8 @@
 namespace plumb {
 
 /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
-[[nodiscard]] std::unique_ptr<GroundAlgorithm> make_ground_algorithm(const GroundConfig& config,
-                                                                     const CameraModel& camera);
+[[nodiscard]] std::unique_ptr<GroundAlgorithm> make_ground_algorithm(
+    const GroundConfig& config, const CameraModel& camera,
+    const GroundModel& model = built_in_ground_model());
 
 }  // namespace plumb

@@ -1,0 +1,39 @@
+/// Covariances out of a trained model.
+///
+/// The dense cue's covariance is built of what the model tells: variances of n1 and n3, and of ln h once the normal is
+/// known; how ln h follows the normal comes from the frame's own pixels. Memory  none.
+#pragma once
+
+#include "modules/ground/cue_covariance.hpp"
+#include "modules/ground/ground_model.hpp"
+
+namespace plumb {
+
+class LearnedCovariance final : public CueCovariance {
+ public:
+  explicit LearnedCovariance(const GroundModel& model) : model_(model) {}
+
+  [[nodiscard]] Eigen::Matrix3d dense(const DenseObservation& dense,
+                                      const CueContext& context) const override;
+  [[nodiscard]] double points(const PointsObservation& points,
+                              const CueContext& context) const override;
+  [[nodiscard]] double travel(const Travel& travel, const CueContext& context) const override;
+  [[nodiscard]] double dense_repetition(const CueContext& context) const override;
+  [[nodiscard]] double points_repetition(const CueContext& context) const override;
+  [[nodiscard]] double travel_repetition(const CueContext& context) const override;
+  [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
+  [[nodiscard]] double points_quality(const PointsObservation& points) const override;
+
+ private:
+  GroundModel model_;
+};
+
+/// Information of (n1, n3, ln h) in the dense cue by pixel noise alone, never singular.
+[[nodiscard]] Eigen::Matrix3d state_information(const DenseObservation& dense);
+/// d(ln h given the normal) / d(n1, n3).
+[[nodiscard]] Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information);
+
+/// Sum of the correlations e^(-k step / memory) over all k: how many images share one independent error.
+[[nodiscard]] double repetition_of(double memory_ratio, double step_ratio);
+
+}  // namespace plumb
