@@ -11,11 +11,11 @@ struct PaperConfig {
   double mu = 50.0;
   double region_width_ratio = 0.2;
   double region_height_ratio = 0.333;
-  double least_step_m = 0.5;
+  double least_step_m = 0.1;
   double pitch_rad = 0.0;
   double roll_rad = 0.0;
-  double normal_noise_rad = 0.002;
-  double height_noise_m = 0.02;
+  double normal_noise_rad = 0.005;
+  double height_noise_m = 0.01;
 };
 
 struct GroundConfig {

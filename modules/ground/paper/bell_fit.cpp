@@ -13,6 +13,8 @@ using Parameters = Eigen::Vector4d;
 
 constexpr int kIterations = 40;
 constexpr double kEnough = 1e-9;
+// Slices are centred on the found minimum: a dip near their ends is another one, or a slope.
+constexpr double kFarthestCentre = 0.5;
 // A dip narrower than a third of the spacing falls between samples; one wider than the slice is
 // none.
 constexpr double kNarrowest = 0.3 * 2.0 / (kSliceSamples - 1);
@@ -93,8 +95,8 @@ Bell fit_bell(const Slice& slice) {
     }
   }
   Bell bell{false, middle + half_range * p(2), half_range * p(3), p(1), p(0)};
-  bell.ok = std::isfinite(cost) && p(1) > 0.0 && std::abs(p(2)) <= 1.0 && p(3) >= kNarrowest &&
-            p(3) <= kWidest;
+  bell.ok = std::isfinite(cost) && p(1) > 0.0 && std::abs(p(2)) <= kFarthestCentre &&
+            p(3) >= kNarrowest && p(3) <= kWidest;
   return bell;
 }
 

@@ -17,7 +17,7 @@ struct Slice {
 };
 
 struct Bell {
-  bool ok = false;  ///< a dip inside the slice, wider than the samples' spacing can hide
+  bool ok = false;  ///< a dip near the slice's middle, wider than the samples' spacing can hide
   double centre = 0.0;
   double width = 0.0;  ///< sigma, unit of x
   double depth = 0.0;

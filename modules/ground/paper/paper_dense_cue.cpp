@@ -88,6 +88,7 @@ double PaperDenseCue::search_height(const ImageView& old_image, const Se3& T_old
   double best = kInfinity;
   double sum = 0.0;
   int num = 0;
+  int best_index = 0;
   for (int i = 0; i < kNumSteps; ++i) {
     const double ratio = kSlowestStep * std::exp(ln_range * i / (kNumSteps - 1));
     const double height = step / ratio;
@@ -98,9 +99,11 @@ double PaperDenseCue::search_height(const ImageView& old_image, const Se3& T_old
     if (sad < best) {
       best = sad;
       best_height = height;
+      best_index = i;
     }
   }
-  return num > 0 && best < kLeastDip * sum / num ? best_height : 0.0;
+  // Best at the slowest: the picture stands, or shows no road.
+  return best_index > 0 && best < kLeastDip * sum / num ? best_height : 0.0;
 }
 
 }  // namespace plumb

@@ -21,6 +21,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAgreeLnHeight = 0.15;
 constexpr double kStartNormalStd = 0.02;
 constexpr double kStartHeightRatio = 0.15;
+// A correction beyond this factor is none: the search begins anew.
+constexpr double kLargestCorrection = 5.0;
 
 /// n = (cos p sin r, cos p cos r, sin p), as plane_angles.hpp.
 Eigen::Vector3d calibrated_normal(const PaperConfig& paper) {
@@ -277,6 +279,10 @@ void PaperGround::Impl::fuse(const GroundInput& input) {
     fused.add(kN1, dense.n1, dense.n1_var);
     fused.add(kN3, dense.n3, dense.n3_var);
     fused.add(kH, m * dense.height, m * m * dense.height_var);
+  } else if (frame.searched) {
+    // Points take the pitch from calibration; it is all that is known of the normal now.
+    fused.add(kN1, normal_calibrated.x(), kStartNormalStd * kStartNormalStd);
+    fused.add(kN3, normal_calibrated.z(), kStartNormalStd * kStartNormalStd);
   }
   const CueObservation& points = out.plane.cues[kCuePoints];
   if (points.status == CueStatus::kUsed) {
@@ -295,6 +301,11 @@ void PaperGround::Impl::correct_scale(const CueFusion& fused) {
     return;
   }
   const double s = filter.height() / height_m;
+  if (!(s < kLargestCorrection && s > 1.0 / kLargestCorrection)) {
+    started = frame.measured = false;
+    last_found_vo = 0.0;
+    return;
+  }
   frame.height_m = fused.value(kH) / s;
   frame.height_var = fused.var(kH) / (height_m * height_m);
   metres_per_vo /= s;
