@@ -96,7 +96,7 @@ double CandidateMixture::evaluate(const Parameters& parameters, Eigen::VectorXd:
   const Sample& s = samples_[static_cast<std::size_t>(sample)];
   double sum = 0.0;
   for (std::size_t m = 0; m < starts_.size(); ++m) {
-    const int at = kPerComponent * static_cast<Eigen::Index>(m);
+    const Eigen::Index at = kPerComponent * static_cast<Eigen::Index>(m);
     const auto p = parameters.segment<kPerComponent>(at);
     const Eigen::Vector4d offset =
         (s.b - starts_[m].b).cwiseQuotient(scale_px(m)) - p.segment<4>(1);
