@@ -105,7 +105,7 @@ inline void sample_row(const ImageView& image, const Landing& at, int row_offset
 }
 
 inline void sample_with_gradient(const ImageView& image, const Landing& at, Sample* out) {
-  RowSample above, upper, lower, below;
+  RowSample above{}, upper{}, lower{}, below{};
   sample_row(image, at, -1, &above);
   sample_row(image, at, 0, &upper);
   sample_row(image, at, 1, &lower);
@@ -120,7 +120,7 @@ inline void sample_with_gradient(const ImageView& image, const Landing& at, Samp
 }
 
 inline void sample_value(const ImageView& image, const Landing& at, Lanes* out) {
-  RowSample upper, lower;
+  RowSample upper{}, lower{};
   sample_row(image, at, 0, &upper);
   sample_row(image, at, 1, &lower);
   *out = upper.centre + at.fv * (lower.centre - upper.centre);
@@ -185,9 +185,9 @@ void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
     load(pixels.x + i, &x);
     load(pixels.y + i, &y);
     load(pixels.grey + i, &grey);
-    Landing at;
+    Landing at{};
     land(h, camera_, image_, x, y, &at);
-    Sample old;
+    Sample old{};
     sample_with_gradient(image_, at, &old);
     const Lanes r = old.value - gain * grey - bias;
     // Chain rule along the epipolar line; the radial term's own slope, below 1 %, is left to
@@ -204,7 +204,7 @@ void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
 
 Likeness PlaneWarp::compare(const RoadPixels& pixels, const Eigen::Vector3d& q) const {
   const Homography h = make_homography(T_old_cam_, q);
-  alignas(32) std::array<float, kMaxRoadPixels + kLanes> difference;
+  alignas(32) std::array<float, kMaxRoadPixels + kLanes> difference{};
   Lanes count{}, sum_a{}, sum_b{}, sum_aa{}, sum_bb{}, sum_ab{};
   const Lanes zero{};
   for (int i = 0; i < pixels.size; i += kLanes) {
@@ -212,7 +212,7 @@ Likeness PlaneWarp::compare(const RoadPixels& pixels, const Eigen::Vector3d& q) 
     load(pixels.x + i, &x);
     load(pixels.y + i, &y);
     load(pixels.grey + i, &grey);
-    Landing at;
+    Landing at{};
     land(h, camera_, image_, x, y, &at);
     sample_value(image_, at, &old);
     const IntLanes usable = at.inside & held(i, pixels.size);

@@ -27,6 +27,7 @@ class WindowRefiner {
 
  private:
   static constexpr int kMaxFree = kMaxFrames - 1;
+  static constexpr std::size_t kNumBlocks = std::size_t{kMaxFree} * kMaxFree;
   struct Coupling {
     int free = 0;  // index of the free frame
     Vector6d w;    // sum weight J_pose^T d, d = dr/drho
@@ -51,7 +52,7 @@ class WindowRefiner {
   void apply(Window& window, TrackTable& tracks);
 
   Matrix6d& block(int row, int col) {
-    return blocks_[static_cast<std::size_t>(row * kMaxFree + col)];
+    return blocks_[static_cast<std::size_t>(row) * kMaxFree + static_cast<std::size_t>(col)];
   }
 
   std::vector<Structure> structures_;
@@ -59,11 +60,11 @@ class WindowRefiner {
   std::array<int, kMaxFrames> free_of_slot_{};  // -1: fixed or not in the window
   FixedVector<int, kMaxFrames> free_slots_;
   std::array<Se3, kMaxFrames> T_world_cam_;
-  std::array<Matrix6d, kMaxFree * kMaxFree> blocks_;  // upper triangle
+  std::array<Matrix6d, kNumBlocks> blocks_;  // upper triangle
   std::array<Vector6d, kMaxFree> gradient_;
   std::array<Vector6d, kMaxFree> step_;
-  std::array<double, 36 * kMaxFree * kMaxFree> dense_{};
-  std::array<double, 6 * kMaxFree> rhs_{};
+  std::array<double, 36 * kNumBlocks> dense_{};
+  std::array<double, std::size_t{6} * kMaxFree> rhs_{};
   std::array<Se3, kMaxFrames> saved_poses_;
   double damping_ = 0.0;
   double cost_ = 0.0;

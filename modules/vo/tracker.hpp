@@ -39,8 +39,8 @@ class Tracker {
  private:
   struct Guess {
     Eigen::Vector2f px;
-    float scale;   // apparent size now / before
-    float std_px;  // how far off the guess may be
+    float scale = 1.0F;   // apparent size now / before
+    float std_px = 0.0F;  // how far off the guess may be
   };
   [[nodiscard]] bool anchor_one(const ImageView& image, Track& track, const ImageView& host_image,
                                 const Se3& T_cam_host) const;
