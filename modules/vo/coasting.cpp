@@ -21,7 +21,7 @@ void Pipeline::coast(const VoInput& input, VoReason reason) {
   const bool predicts = motion_.known() && unseen_s_ <= config_.coast_limit_s;
   const Se3 T_prev_cam = predicts ? motion_.predict(dt_s_) : Se3{};
   motion_.decay(dt_s_, config_.coast_decay_s);
-  predicted_distance_ += T_prev_cam.t.norm();
+  predicted_distance_ += motion_.seen_speed() * dt_s_;
   held_ = false;
   window_.remember(input.seq, T_prev_cam.inverse() * last_pose(), false);
   if (predicts) report_prediction(T_prev_cam);

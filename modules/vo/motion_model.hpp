@@ -16,11 +16,13 @@ class MotionModel {
   void observe(const Se3& T_prev_cam, double dt_s) {
     velocity_ = T_prev_cam.t / dt_s;
     rate_ = log_so3(T_prev_cam.R) / dt_s;
+    seen_speed_ = velocity_.norm();
     known_ = true;
   }
   void stop() {
     velocity_.setZero();
     rate_.setZero();
+    seen_speed_ = 0.0;
     known_ = true;
   }
   /// Less and less motion, while it is only predicted.
@@ -35,11 +37,13 @@ class MotionModel {
     if (!known_) return {};
     return {exp_so3(rate_ * dt_s), velocity_ * dt_s};
   }
-  [[nodiscard]] double speed() const { return known_ ? velocity_.norm() : 0.0; }
+  /// When it was last measured, however long ago: the best guess while nothing is seen.
+  [[nodiscard]] double seen_speed() const { return known_ ? seen_speed_ : 0.0; }
 
  private:
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  double seen_speed_ = 0.0;
   bool known_ = false;
 };
 

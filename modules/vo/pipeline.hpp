@@ -56,7 +56,7 @@ class Pipeline {
   void begin_reference(std::int64_t seq, const Se3& T_cam_world, const Pyramid& image);
   void start(const VoInput& input, StageProbe& probe);
   [[nodiscard]] bool stands_before_start(const VoInput& input);
-  [[nodiscard]] bool try_start(const VoInput& input);
+  [[nodiscard]] bool try_start(const VoInput& input, double least_flow_px);
   [[nodiscard]] double collect_pairs();
   void adopt_two_views(const TwoView& views, double distance);
   void restart(const VoInput& input, StageProbe& probe);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kMinTracks = 40;
 constexpr double kMinSurvivors = 0.4;
+constexpr double kLeastFlowPx = 3.0;    // when waiting for more would lose the tracks
 constexpr double kMinParallaxPx = 2.0;  // left by the best rotation
 constexpr double kMinInlierRatio = 0.5;
 constexpr double kStandingFlowPx = 0.35;
@@ -19,7 +20,14 @@ constexpr double kUnknownStd = 0.3;  // 1/[vo]
 constexpr int kDepthIterations = 15;
 constexpr int kStartIterations = 30;
 constexpr double kSpeedStdRatio = 0.03;
-constexpr double kAccelerationStd = 1.5;  // [vo]/s^2
+constexpr double kAccelerationStd = 1.5;   // [vo]/s^2
+constexpr double kAccelerationTime = 1.0;  // a driver keeps an acceleration for about this long [s]
+
+/// 1-sigma of ln(speed now / speed when last seen): grows with the time at first, with its root later.
+double carried_std(double seen_speed, double unseen_s) {
+  const double wander = kAccelerationStd * unseen_s / std::sqrt(1.0 + unseen_s / kAccelerationTime);
+  return std::hypot(kSpeedStdRatio, wander / std::max(seen_speed, 1e-3));
+}
 
 double at_share(std::vector<double>& values, double share) {
   const auto at =
@@ -54,24 +62,31 @@ void Pipeline::start(const VoInput& input, StageProbe& probe) {
   const int num_found = tracker_.search(last_image(), image(), tracks_, true);
   tracker_.drop_missing(tracks_);
   out_.num_tracked = num_found;
-  predicted_distance_ += T_prev_cam.t.norm();
+  predicted_distance_ += motion_.seen_speed() * dt_s_;
   probe.mark("track");
-  if (num_found < std::max(1.0 * kMinTracks, kMinSurvivors * num_at_reference_)) {
-    begin_reference(input.seq, T_predicted, image());
-    keep_image(T_predicted);
-    wait_for_start(input, VoReason::kTooFewFeatures);
-    return;
+  const bool enough = num_found >= std::max(1.0 * kMinTracks, kMinSurvivors * num_at_reference_);
+  if (enough && stands_before_start(input)) return;
+  // A first search knows no motion and misses what is near: its finds are the measure for those that follow.
+  const bool first = window_.order().size() == 1;
+  if (first) num_at_reference_ = num_found;
+  if (num_found >= kMinTracks) {
+    if (window_.order().size() == kMaxFrames) {
+      keyframes_.remove_frame(window_.order()[1], tracks_, window_);
+    }
+    static_cast<void>(add_frame(input.seq, T_predicted));
+    // Too few are left to go on: what they tell now, or nothing.
+    const bool started = try_start(input, enough ? config_.start_flow_px : kLeastFlowPx);
+    probe.mark("start");
+    if (started) return;
+    if (enough || first) {
+      keep_image(T_predicted);
+      wait_for_start(input, VoReason::kLowParallax);
+      return;
+    }
   }
-  if (stands_before_start(input)) return;
-  if (window_.order().size() == kMaxFrames) {
-    keyframes_.remove_frame(window_.order()[1], tracks_, window_);
-  }
-  static_cast<void>(add_frame(input.seq, T_predicted));
-  if (!try_start(input)) {
-    keep_image(T_predicted);
-    wait_for_start(input, VoReason::kLowParallax);
-  }
-  probe.mark("start");
+  begin_reference(input.seq, T_predicted, image());
+  keep_image(T_predicted);
+  wait_for_start(input, VoReason::kTooFewFeatures);
 }
 
 // Not started: with a speed from before the loss the motion is predicted, else it is unknown.
@@ -115,9 +130,9 @@ double Pipeline::collect_pairs() {
   return at_share(scratch_, 0.5);
 }
 
-bool Pipeline::try_start(const VoInput& /*input*/) {
+bool Pipeline::try_start(const VoInput& /*input*/, double least_flow_px) {
   out_.median_flow_px = collect_pairs();
-  if (out_.median_flow_px < config_.start_flow_px) return false;
+  if (out_.median_flow_px < least_flow_px) return false;
   if (fit_rotation(pairs_, focal_px_.x(), scratch_).median_px < kMinParallaxPx) return false;
   const int reference = window_.order()[0];
   const Se3 T_guess =
@@ -141,9 +156,8 @@ bool Pipeline::try_start(const VoInput& /*input*/) {
   if (restarting_) {
     out_.reason = VoReason::kRestarted;
     ++out_.scale_epoch;
-    const double drift = kAccelerationStd * (unseen_s_ + dt_s_) / std::max(motion_.speed(), 1e-3);
-    out_.scale_carry_std =
-        speed_known ? std::hypot(kSpeedStdRatio, drift) : std::numeric_limits<double>::quiet_NaN();
+    out_.scale_carry_std = speed_known ? carried_std(motion_.seen_speed(), unseen_s_ + dt_s_)
+                                       : std::numeric_limits<double>::quiet_NaN();
   }
   const Se3 T_now_world = window_[window_.newest()].T_cam_world;
   if (window_.num_history() > 1) {
@@ -192,7 +206,7 @@ void Pipeline::restart(const VoInput& input, StageProbe& probe) {
   const Se3 T_predicted = T_prev_cam.inverse() * last_pose();
   const bool adjacent = unseen_s_ == 0.0;
   restarting_ = true;
-  speed_known_ = motion_.known() && unseen_s_ <= config_.coast_limit_s;
+  speed_known_ = motion_.known();
   const VoReason reason =
       out_.num_tracked < kMinTracks ? VoReason::kTooFewFeatures : VoReason::kTooFewInliers;
   if (adjacent) {
@@ -201,10 +215,10 @@ void Pipeline::restart(const VoInput& input, StageProbe& probe) {
     tracker_.predict_by_pose(tracks_, window_, T_image_world, T_predicted);
     out_.num_tracked = tracker_.search(last_image(), image(), tracks_, true);
     tracker_.drop_missing(tracks_);
-    predicted_distance_ = T_prev_cam.t.norm();
+    predicted_distance_ = motion_.seen_speed() * dt_s_;
     if (out_.num_tracked >= kMinTracks) {
       static_cast<void>(add_frame(input.seq, T_predicted));
-      if (try_start(input)) return;
+      if (try_start(input, config_.start_flow_px)) return;
     }
   }
   begin_reference(input.seq, T_predicted, image());

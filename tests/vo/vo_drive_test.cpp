@@ -213,6 +213,42 @@ TEST(Restart, AnotherPlaceGetsANewEpochWithTheSpeedBefore) {
   EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
 }
 
+TEST(Restart, AfterALongLossTheUnitIsCarriedWithTheDoubtThatGrew) {
+  Drive d;
+  for (const Se3& T : drive(16, 0.6)) d.see(T);
+  const double before = mean_step(d, 10, 16);
+  const RenderedImage dark{std::vector<std::uint8_t>(620 * 188, 0), 620, 188};
+  for (int i = 0; i < 50; ++i) d.show(dark);
+  EXPECT_EQ(d.last().status, VoStatus::kLost);
+  Se3 T{Eigen::Matrix3d::Identity(), {0.3, 0.0, 16 * 0.6 + 50 * 0.6}};
+  double carry_std = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    T.t.z() += 0.6;
+    d.see(T);
+    if (d.last().reason == VoReason::kRestarted) carry_std = d.last().scale_carry_std;
+  }
+  EXPECT_EQ(d.last().status, VoStatus::kOk);
+  EXPECT_EQ(d.last().scale_epoch, 1);
+  EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
+  EXPECT_GT(carry_std, 0.1);  // five seconds are long
+  EXPECT_LT(carry_std, 2.0);
+}
+
+TEST(Start, AtHighSpeedASecondLookIsEnough) {
+  for (const double step : {1.4, 2.0, 2.7}) {
+    Drive d;
+    int first_ok = -1;
+    int i = 0;
+    for (const Se3& T : drive(8, step)) {
+      d.see(T, 2.0);
+      if (first_ok < 0 && d.last().status == VoStatus::kOk) first_ok = i;
+      ++i;
+    }
+    EXPECT_GE(first_ok, 1) << step;
+    EXPECT_LE(first_ok, 3) << step;
+  }
+}
+
 TEST(Input, MissingFramesAreSaidAndBridged) {
   const std::vector<Se3> poses = drive(24, 0.5);
   Drive d;
