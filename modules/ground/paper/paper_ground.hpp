@@ -5,9 +5,9 @@
 /// the same EgoMotion as the default's. README.md beside this file lists what the paper leaves
 /// open and what differs.
 ///
-/// Scale   lengths of VO are taken times metres_per_vo, which is corrected by s = h / h* after every
-///         frame that saw a height; so h stays near the camera's true height h*.
-/// Memory  two images and the road region, at construction. SIFT uses the heap in every frame:
+/// Scale   lengths of VO are taken times metres_per_vo, which is corrected by s = h / h* after
+///         every frame that saw a height; so h stays near the camera's true height h*.
+/// Memory  twelve images and the road region, at construction. SIFT uses the heap in every frame:
 ///         this mode is exempt from the rule that the default keeps, and made for comparison.
 #pragma once
 
