@@ -141,6 +141,7 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   m.frame.filter_started = m.filter.started();
   m.frame.state = m.filter.state();
   m.frame.cov = m.filter.cov();
+  m.frame.bias = m.bias;
   m.write_cues();
   m.write_plane(vo, m.frame.image != nullptr);
   probe.mark("fuse");

@@ -25,6 +25,7 @@ struct GroundSight {
   bool filter_started = false;                      ///< the two below hold
   Eigen::Vector3d state = Eigen::Vector3d::Zero();  ///< of the filter, this frame's cues in it
   Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();
+  PlaneBias bias;  ///< what was reported on top of `cov`
 };
 
 }  // namespace plumb

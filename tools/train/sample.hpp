@@ -70,12 +70,16 @@ struct Sample {
   // What was reported, with the deviations of that run.
   double out_scale_err = kNone;
   double out_scale_var = kNone;
+  double out_scale_bias_var = kNone;  ///< part of it that the model adds for a whole drive
   double out_height_err = kNone;
   double out_height_var = kNone;
+  double out_height_bias_var = kNone;
   double out_pitch_err = kNone;
   double out_pitch_var = kNone;
+  double out_pitch_bias_var = kNone;
   double out_roll_err = kNone;
   double out_roll_var = kNone;
+  double out_roll_bias_var = kNone;
   double out_step_err = kNone;  ///< ln of the motion's length
   double out_step_var = kNone;
   double out_move_nees = kNone;  ///< of the translation, 3 degrees of freedom, divided by 3

@@ -57,12 +57,16 @@ void Sample::visit(S& s, Field&& field) {
   field("travel_hand_var", s.travel_hand_var);
   field("out_scale_err", s.out_scale_err);
   field("out_scale_var", s.out_scale_var);
+  field("out_scale_bias_var", s.out_scale_bias_var);
   field("out_height_err", s.out_height_err);
   field("out_height_var", s.out_height_var);
+  field("out_height_bias_var", s.out_height_bias_var);
   field("out_pitch_err", s.out_pitch_err);
   field("out_pitch_var", s.out_pitch_var);
+  field("out_pitch_bias_var", s.out_pitch_bias_var);
   field("out_roll_err", s.out_roll_err);
   field("out_roll_var", s.out_roll_var);
+  field("out_roll_bias_var", s.out_roll_bias_var);
   field("out_step_err", s.out_step_err);
   field("out_step_var", s.out_step_var);
   field("out_move_nees", s.out_move_nees);

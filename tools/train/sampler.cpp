@@ -95,6 +95,10 @@ void Sampler::add_cues(const GroundSight& sight, double ln_scale, const TruePlan
   reference.plane = plane;
   reference.normal_cam = plane != nullptr ? plane->normal_cam : normal_of_state(sight.state);
   if (plane == nullptr) reference.normal_cov = sight.cov.topLeftCorner<2, 2>();
+  sample->out_scale_bias_var = sight.bias.ln_scale_std * sight.bias.ln_scale_std;
+  sample->out_height_bias_var = sight.bias.ln_height_std * sight.bias.ln_height_std;
+  sample->out_pitch_bias_var = sight.bias.pitch_std_rad * sight.bias.pitch_std_rad;
+  sample->out_roll_bias_var = sight.bias.roll_std_rad * sight.bias.roll_std_rad;
   write_dense(sight, reference, sample);
   write_points(sight, reference, sample);
   write_travel(sight, reference, sample);

@@ -1,0 +1,167 @@
+#include "tools/train/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/ground/learned_covariance.hpp"
+
+namespace plumb {
+namespace {
+
+// Frames over which correlations are summed: about what the filter remembers.
+constexpr int kMostLag = 15;
+constexpr std::size_t kFewestRows = 20;
+constexpr double kMostHeldOutNees = 10.0;  // one drive that went wrong says no more than this
+
+std::vector<std::vector<TargetRow>> rows_per_drive(Target target,
+                                                   const std::vector<DriveSamples>& drives,
+                                                   const LogVariance& dense_height) {
+  std::vector<std::vector<TargetRow>> rows;
+  for (const DriveSamples& drive : drives) rows.push_back(rows_of(target, drive, dense_height));
+  return rows;
+}
+
+std::vector<VarianceRow> all_rows(const std::vector<std::vector<TargetRow>>& drives) {
+  std::vector<VarianceRow> rows;
+  for (const auto& drive : drives)
+    for (const TargetRow& row : drive) rows.push_back(row.row);
+  return rows;
+}
+
+double mean_step_ratio(const std::vector<std::vector<TargetRow>>& drives) {
+  double sum = 0.0;
+  double num = 0.0;
+  for (const auto& drive : drives) {
+    for (const TargetRow& row : drive) {
+      sum += row.step_ratio;
+      num += 1.0;
+    }
+  }
+  return sum / num;
+}
+
+double* memory_of(Target target, GroundModel* model) {
+  switch (target) {
+    case Target::kDenseHeight:
+      return &model->dense_memory_ratio;
+    case Target::kPoints:
+      return &model->points_memory_ratio;
+    case Target::kTravel:
+      return &model->travel_memory_ratio;
+    default:
+      return nullptr;
+  }
+}
+
+/// Drives differ by more than the frames within them: on a drive that a fit did not see, its variances are too small by
+/// this factor, the mean of the held-out drives' mean squared errors.
+double held_out_factor(Target target, const std::vector<std::vector<TargetRow>>& drives) {
+  double sum = 0.0;
+  int num = 0;
+  for (std::size_t held = 0; held < drives.size(); ++held) {
+    std::vector<std::vector<TargetRow>> others = drives;
+    others[held].clear();
+    const std::vector<VarianceRow> rows = all_rows(others);
+    if (rows.size() < kFewestRows || drives[held].empty()) continue;
+    const LogVariance model = fit_log_variance(rows, prior_of(target), bounds_of(target));
+    ScoreSum score;
+    for (const TargetRow& row : drives[held])
+      score.add(row.row.error, model.of(row.row.features) + row.row.extra_var);
+    sum += std::min(score.mean().nees, kMostHeldOutNees);
+    ++num;
+  }
+  return num > 1 ? std::max(1.0, sum / num) : 1.0;
+}
+
+}  // namespace
+
+double repetition_in(const std::vector<std::vector<TargetRow>>& drives, const LogVariance& model) {
+  double square = 0.0;
+  double product = 0.0;
+  for (const auto& drive : drives) {
+    std::vector<double> z;
+    for (const TargetRow& row : drive) {
+      const double var = model.of(row.row.features) + row.row.extra_var;
+      z.push_back(std::clamp(row.row.error / std::sqrt(var), -3.0, 3.0));
+    }
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      square += z[i] * z[i];
+      for (std::size_t k = i + 1; k < z.size() && drive[k].seq - drive[i].seq <= kMostLag; ++k)
+        product += 2.0 * z[i] * z[k];
+    }
+  }
+  return square > 0.0 ? std::max(1.0, 1.0 + product / square) : 1.0;
+}
+
+double memory_of_repetition(double repetition, double step_ratio) {
+  // repetition = coth(step / (2 memory))
+  if (repetition <= 1.0 + 1e-6) return 0.0;
+  return 0.5 * step_ratio / std::atanh(1.0 / repetition);
+}
+
+GroundModel fit_cues(const std::vector<DriveSamples>& drives, const GroundModel& start) {
+  GroundModel model = start;
+  for (const Target target : kTargets) {
+    const auto rows = rows_per_drive(target, drives, model.dense_height);
+    const std::vector<VarianceRow> all = all_rows(rows);
+    if (all.size() < kFewestRows) continue;
+    LogVariance& cue = model_of(target, &model);
+    cue = fit_log_variance(all, prior_of(target), bounds_of(target));
+    cue.ln_var += std::log(held_out_factor(target, rows));
+    if (double* memory = memory_of(target, &model))
+      *memory = memory_of_repetition(repetition_in(rows, cue), mean_step_ratio(rows));
+  }
+  return model;
+}
+
+std::vector<HeldOutScore> leave_one_out(const std::vector<DriveSamples>& drives,
+                                        const GroundModel& start) {
+  std::vector<HeldOutScore> scores;
+  for (std::size_t held = 0; held < drives.size(); ++held) {
+    std::vector<DriveSamples> others = drives;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(held));
+    const GroundModel model = fit_cues(others, start);
+    for (const Target target : kTargets) {
+      ScoreSum learned, hand;
+      for (const TargetRow& row : rows_of(target, drives[held], model.dense_height)) {
+        const double extra = row.row.extra_var;
+        learned.add(row.row.error, model_of(target, model).of(row.row.features) + extra);
+        hand.add(row.row.error, row.hand_var + extra);
+      }
+      if (learned.mean().num > 0)
+        scores.push_back({drives[held].drive, target, learned.mean(), hand.mean()});
+    }
+  }
+  return scores;
+}
+
+std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives, GroundModel* model) {
+  struct Line {
+    const char* name;
+    double Sample::*belief;
+    double Sample::*error;
+    LinearVariance* line;
+  };
+  const Line lines[] = {
+      {"h", &Sample::paper_width_height, &Sample::paper_err_height, &model->paper.dense_h},
+      {"n1", &Sample::paper_width_n1, &Sample::paper_err_n1, &model->paper.dense_n1},
+      {"n3", &Sample::paper_width_n3, &Sample::paper_err_n3, &model->paper.dense_n3},
+      {"points h", &Sample::paper_vote, &Sample::paper_err_points, &model->paper.points_h}};
+  std::vector<PaperFit> fits;
+  for (const Line& line : lines) {
+    std::vector<Belief> beliefs;
+    for (const DriveSamples& drive : drives) {
+      for (const Sample& s : drive.frames) {
+        const Belief belief{s.*line.belief, s.*line.error};
+        if (std::isfinite(belief.belief) && std::isfinite(belief.error)) beliefs.push_back(belief);
+      }
+    }
+    PaperFit fit{line.name, bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
+    if (fit.bins.size() < 2) continue;
+    fit.line = *line.line = fit_line(fit.bins);
+    fits.push_back(std::move(fit));
+  }
+  return fits;
+}
+
+}  // namespace plumb

@@ -1,0 +1,56 @@
+/// The reduce step: samples of many drives -> one model, with scores on drives that the fit did not see.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/train/belief_line.hpp"
+#include "tools/train/targets.hpp"
+
+namespace plumb {
+
+/// Fits the five models and their memories; what `start` holds and the samples say nothing about stays.
+/// A target without rows keeps its model. @pre drives not empty
+[[nodiscard]] GroundModel fit_cues(const std::vector<DriveSamples>& drives,
+                                   const GroundModel& start);
+
+/// Deviations of a whole drive, so that what was reported gets a mean square of one over the drives: each drive counts
+/// the same. Samples of another algorithm than "learned" leave them as they are.
+void fit_bias(const std::vector<DriveSamples>& drives, GroundModel* model);
+
+/// The published method's lines (algorithm "paper").
+struct PaperFit {
+  const char* name = "";
+  std::vector<BeliefBin> bins;
+  LinearVariance line;
+};
+[[nodiscard]] std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives,
+                                              GroundModel* model);
+
+/// Sum of the errors' correlations with those of the frames before, both ways, and the memory that has the same sum.
+[[nodiscard]] double repetition_in(const std::vector<std::vector<TargetRow>>& drives,
+                                   const LogVariance& model);
+[[nodiscard]] double memory_of_repetition(double repetition, double step_ratio);
+
+/// One drive and target: a model that did not see the drive, beside the one set by hand.
+struct HeldOutScore {
+  std::string drive;
+  Target target = Target::kDenseHeight;
+  VarianceScore learned;
+  VarianceScore hand;
+};
+/// @pre at least two drives
+[[nodiscard]] std::vector<HeldOutScore> leave_one_out(const std::vector<DriveSamples>& drives,
+                                                      const GroundModel& start);
+
+/// Mean squared ratio of error and reported deviation, per drive and quantity.
+struct OutputScore {
+  std::string drive;
+  std::string quantity;
+  VarianceScore score;
+  double rms_error = 0.0;
+  double mean_std = 0.0;  ///< root of the mean variance
+};
+[[nodiscard]] std::vector<OutputScore> score_outputs(const std::vector<DriveSamples>& drives);
+
+}  // namespace plumb

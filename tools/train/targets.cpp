@@ -1,0 +1,131 @@
+#include "tools/train/targets.hpp"
+
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+// The camera's height over the road under its wheels is not the nominal one: load, tyres, crown.
+constexpr double kNominalLnStd = 0.01;
+constexpr double kLeastSlope = 2.0;  // of ln h against n3, for a height's error to tell a tilt
+
+bool finite(double a, double b, double c) {
+  return std::isfinite(a) && std::isfinite(b) && std::isfinite(c);
+}
+
+double reference_var(const Sample& s, double normal_part) {
+  const double nominal = s.has_plane > 0.5 ? 0.0 : kNominalLnStd;
+  return s.truth_ln_std * s.truth_ln_std + nominal * nominal + normal_part;
+}
+
+CueFeatures features(const Sample& s, double pixel_var) {
+  return dense_features(pixel_var, s.dense_ncc, s.turn_ratio, s.step_ratio);
+}
+
+bool dense_row(Target target, const Sample& s, const LogVariance& dense_height, TargetRow* out) {
+  if (!(s.dense_used > 0.5)) return false;
+  VarianceRow& row = out->row;
+  if (target == Target::kDenseHeight) {
+    row = {s.dense_err_given, reference_var(s, s.dense_given_ref_var), 1.0,
+           features(s, s.dense_pixel_var_given)};
+    out->hand_var = s.dense_hand_var_given;
+  } else if (target == Target::kDenseN1) {
+    row = {s.dense_err_n1, 0.0, 1.0, features(s, s.dense_pixel_var_n1)};
+    out->hand_var = s.dense_hand_var_n1;
+  } else if (s.has_plane > 0.5) {
+    row = {s.dense_err_n3, 0.0, 1.0, features(s, s.dense_pixel_var_n3)};
+    out->hand_var = s.dense_hand_var_n3;
+  } else {
+    if (!(std::abs(s.dense_slope_n3) > kLeastSlope)) return false;
+    const double given = dense_height.of(features(s, s.dense_pixel_var_given));
+    const double per_tilt = 1.0 / s.dense_slope_n3;
+    row = {s.dense_err_height * per_tilt, (given + reference_var(s, 0.0)) * per_tilt * per_tilt,
+           1.0, features(s, s.dense_pixel_var_n3)};
+    out->hand_var = s.dense_hand_var_n3;
+    out->direct = false;
+  }
+  return true;
+}
+
+bool points_row(const Sample& s, TargetRow* out) {
+  if (!(s.points_used > 0.5)) return false;
+  out->row = {s.points_err, reference_var(s, s.points_ref_var), 1.0,
+              points_features(s.points_num_inliers, s.points_spread, s.turn_ratio, s.step_ratio)};
+  out->hand_var = s.points_hand_var;
+  return true;
+}
+
+bool travel_row(const Sample& s, TargetRow* out) {
+  out->row = {s.travel_err, 0.0, 1.0, travel_features(s.turn_ratio, s.step_ratio)};
+  out->hand_var = s.travel_hand_var;
+  return true;
+}
+
+bool row_of(Target target, const Sample& s, const LogVariance& dense_height, TargetRow* out) {
+  switch (target) {
+    case Target::kPoints:
+      return points_row(s, out);
+    case Target::kTravel:
+      return travel_row(s, out);
+    default:
+      return dense_row(target, s, dense_height, out);
+  }
+}
+
+}  // namespace
+
+const char* target_name(Target target) {
+  constexpr std::array<const char*, 5> kNames{"dense_height", "dense_n1", "dense_n3", "points",
+                                              "travel"};
+  return kNames[static_cast<std::size_t>(target)];
+}
+
+std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
+                               const LogVariance& dense_height) {
+  std::vector<TargetRow> rows;
+  for (const Sample& s : drive.frames) {
+    TargetRow row;
+    if (!row_of(target, s, dense_height, &row)) continue;
+    bool complete = finite(row.row.error, row.row.extra_var, row.hand_var);
+    for (const double f : row.row.features) complete = complete && std::isfinite(f);
+    if (!complete) continue;
+    row.seq = s.seq;
+    row.step_ratio = s.step_ratio;
+    rows.push_back(row);
+  }
+  // The whole drive weighs 2 sqrt(n) rows: about the number of independent ones in it.
+  const double weight = 2.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(rows.size(), 4)));
+  for (TargetRow& row : rows) row.row.weight = weight;
+  return rows;
+}
+
+LogVariance& model_of(Target target, GroundModel* model) {
+  LogVariance* const kModels[] = {&model->dense_height, &model->dense_n1, &model->dense_n3,
+                                  &model->points, &model->travel};
+  return *kModels[static_cast<std::size_t>(target)];
+}
+
+const LogVariance& model_of(Target target, const GroundModel& model) {
+  const LogVariance* const kModels[] = {&model.dense_height, &model.dense_n1, &model.dense_n3,
+                                        &model.points, &model.travel};
+  return *kModels[static_cast<std::size_t>(target)];
+}
+
+// What the set-by-hand covariances say about the same features; variances, so twice a deviation's power.
+SlopePrior prior_of(Target target) {
+  switch (target) {
+    case Target::kPoints:
+      return {{0.7, 0.5, 1.5, 0.5}, {0.5, 0.5, 0.7, 0.7}};
+    case Target::kTravel:
+      return {{0.0, 0.0, 0.5, 0.5}, {0.0, 0.0, 0.7, 0.7}};
+    default:
+      return {{0.3, 4.0, 1.5, 0.5}, {0.3, 1.0, 0.7, 0.7}};
+  }
+}
+
+VarianceBounds bounds_of(Target target) {
+  if (target == Target::kDenseHeight || target == Target::kPoints) return {0.003, 0.6};
+  return {0.0007, 0.17};
+}
+
+}  // namespace plumb

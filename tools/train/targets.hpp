@@ -1,0 +1,39 @@
+/// What is learned: five errors of the cues, each with its features, taken out of samples.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tools/train/sample_file.hpp"
+#include "tools/train/variance_fit.hpp"
+
+namespace plumb {
+
+enum class Target : std::size_t { kDenseHeight = 0, kDenseN1, kDenseN3, kPoints, kTravel };
+inline constexpr std::array<Target, 5> kTargets{Target::kDenseHeight, Target::kDenseN1,
+                                                Target::kDenseN3, Target::kPoints, Target::kTravel};
+
+[[nodiscard]] const char* target_name(Target target);
+
+struct TargetRow {
+  VarianceRow row;
+  double hand_var = 0.0;  ///< of FloorCovariance
+  double seq = 0.0;
+  double step_ratio = 0.0;
+  bool direct =
+      true;  ///< false: dense_n3 of a frame without a true plane, out of the height's error
+};
+
+/// Rows of one drive, weighted so that a long drive counts for more than a short one, but not in proportion: its frames
+/// are alike. `dense_height` (already fitted) gives dense_n3 of frames without a true plane: there the error of the
+/// height is nearly all tilt times slope.
+[[nodiscard]] std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
+                                             const LogVariance& dense_height);
+
+[[nodiscard]] LogVariance& model_of(Target target, GroundModel* model);
+[[nodiscard]] const LogVariance& model_of(Target target, const GroundModel& model);
+
+[[nodiscard]] SlopePrior prior_of(Target target);
+[[nodiscard]] VarianceBounds bounds_of(Target target);
+
+}  // namespace plumb
