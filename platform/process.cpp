@@ -89,7 +89,7 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
   } catch (const ConfigError& error) {
     log_line("%s", error.what());
     return kExitRefused;
-  } catch (const UsageError& error) {
+  } catch (const InputError& error) {
     log_line("%s", error.what());
     return kExitRefused;
   } catch (const std::exception& error) {

@@ -19,6 +19,7 @@
 #include "platform/counters.hpp"
 #include "platform/event_loop.hpp"
 #include "platform/health.hpp"
+#include "platform/input_error.hpp"
 #include "platform/stage_timer.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): a library's name
@@ -27,10 +28,10 @@ class App;
 
 namespace plumb {
 
-/// Input or options that a program refuses. Process turns it into one line and exit code 2.
-class UsageError : public std::runtime_error {
+/// Options that a program refuses. Process turns it, as any InputError, into one line and exit code 2.
+class UsageError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 struct ProcessInfo {

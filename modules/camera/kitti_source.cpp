@@ -3,27 +3,17 @@
 #include <cmath>
 #include <string>
 
+#include "platform/kitti/png_image.hpp"
 #include "platform/process.hpp"
-#include "tools/kitti2lcm/png_image.hpp"
-#include "tools/support/input_error.hpp"
 
 namespace plumb {
 namespace {
-
-template <typename Action>
-auto refusing(Action action) {
-  try {
-    return action();
-  } catch (const InputError& error) {
-    throw UsageError(error.what());
-  }
-}
 
 Sequence read_folder(const std::filesystem::path& folder, int camera) {
   SequenceOptions options;
   options.folder = folder;
   options.camera = camera;
-  return refusing([&] { return read_sequence(options); });
+  return read_sequence(options);
 }
 
 bool is_distorted(const CameraConfig& c) {
@@ -52,7 +42,7 @@ KittiSource::KittiSource(const std::filesystem::path& folder, int camera)
 }
 
 void KittiSource::load(const std::filesystem::path& file) {
-  cv::Mat image = refusing([&] { return load_grey_png(file, sequence_.colour_allowed); });
+  cv::Mat image = load_grey_png(file, sequence_.colour_allowed);
   if (!image_.empty() && image.size() != image_.size()) {
     throw UsageError(file.string() + " is " + std::to_string(image.cols) + "x" +
                      std::to_string(image.rows) + ", the images before it are " +

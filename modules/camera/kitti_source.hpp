@@ -8,14 +8,14 @@
 #include <opencv2/core/mat.hpp>
 
 #include "modules/camera/recorded_source.hpp"
-#include "tools/kitti2lcm/sequence.hpp"
+#include "platform/kitti/sequence.hpp"
 
 namespace plumb {
 
 class KittiSource final : public RecordedSource {
  public:
   /// `camera` 0 and 1 are grey, 2 and 3 colour that becomes grey. Reads the folder and the first
-  /// image. Throws UsageError.
+  /// image. Throws InputError.
   KittiSource(const std::filesystem::path& folder, int camera);
 
   /// Size and focal lengths are the folder's, and may not contradict `config`; camera_height_m and

@@ -19,10 +19,10 @@ class RecordedSource {
   virtual ~RecordedSource() = default;
 
   /// Fills in what the recording knows about its camera and checks the rest against it.
-  /// Throws UsageError when they contradict each other.
+  /// Throws InputError when they contradict each other.
   virtual void complete(CameraConfig* config) const = 0;
 
-  /// The next frame; false after the last. Throws UsageError when the recording is damaged.
+  /// The next frame; false after the last. Throws InputError when the recording is damaged.
   [[nodiscard]] virtual bool read(GreyFrame* frame) = 0;
 };
 

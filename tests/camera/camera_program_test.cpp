@@ -7,8 +7,9 @@
 #include "platform/bus.hpp"
 #include "platform/clock.hpp"
 #include "plumb/process_health_t.hpp"
-#include "tests/camera/kitti_folder.hpp"
+#include "tests/camera/pattern.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/kitti_folder.hpp"
 #include "tests/support/private_network.hpp"
 
 namespace plumb {
@@ -101,8 +102,7 @@ TEST_F(PlumbCamera, PlaysAKittiFolderAtItsPaceTimesSpeed) {
     EXPECT_EQ(run.images[i].seq, 100 + static_cast<std::int64_t>(i));
     EXPECT_EQ(run.images[i].capture_us - run.images[0].capture_us,
               100'000 * static_cast<std::int64_t>(i));
-    const cv::Mat sent =
-        test::noise(KittiFolder::kHeight, KittiFolder::kWidth, static_cast<unsigned>(101 + i));
+    const cv::Mat sent = KittiFolder::image(100 + static_cast<int>(i));
     EXPECT_EQ(cv::norm(sent, run.images[i].image, cv::NORM_INF), 0.0);
   }
   // 24 steps of 50 ms; a loaded machine is late now and then, never early, and catches up.

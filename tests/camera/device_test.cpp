@@ -8,7 +8,7 @@
 #include "platform/process.hpp"
 #include "platform/v4l2.hpp"
 #include "tests/camera/pattern.hpp"
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -3,22 +3,23 @@
 #include <gtest/gtest.h>
 
 #include "platform/process.hpp"
-#include "tests/camera/kitti_folder.hpp"
+#include "tests/camera/pattern.hpp"
 #include "tests/support/kitti_data.hpp"
+#include "tests/support/kitti_folder.hpp"
 
 namespace plumb {
 namespace {
 
 using test::KittiFolder;
 
-/// Plays the folder to its end; what UsageError says, or "" without one.
+/// Plays the folder to its end; what InputError says, or "" without one.
 std::string error_of(const std::string& path, int camera = 0) {
   try {
     KittiSource source(path, camera);
     GreyFrame frame;
     while (source.read(&frame)) {
     }
-  } catch (const UsageError& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
   return "";
@@ -42,8 +43,7 @@ TEST(KittiSource, DeliversEveryPixelTimeAndNumber) {
     ASSERT_TRUE(source.read(&frame));
     EXPECT_EQ(frame.seq, 100 + i);
     EXPECT_EQ(frame.capture_us, kOdometryEpoch_us + 10'000'000 + 100'000 * i);
-    const cv::Mat expected =
-        test::noise(KittiFolder::kHeight, KittiFolder::kWidth, static_cast<unsigned>(101 + i));
+    const cv::Mat expected = KittiFolder::image(100 + static_cast<int>(i));
     ASSERT_EQ(frame.image.width_px, expected.cols);
     ASSERT_EQ(frame.image.height_px, expected.rows);
     for (int v = 0; v < expected.rows; ++v) {

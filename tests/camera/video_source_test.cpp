@@ -6,7 +6,7 @@
 
 #include "platform/process.hpp"
 #include "tests/camera/pattern.hpp"
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -14,9 +14,9 @@
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/process_health_t.hpp"
-#include "tests/platform/temp_file.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/private_network.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "platform/can_trace.hpp"
 #include "tests/live/live_chain.hpp"
-#include "tests/platform/temp_file.hpp"
 #include "tests/replay/street_log.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/private_network.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -5,12 +5,12 @@
 #include <fstream>
 #include <string>
 
+#include "platform/input_error.hpp"
+#include "platform/text.hpp"
 #include "tests/objects/cuboid_scene.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tools/objects_eval/kitti_tracking.hpp"
 #include "tools/objects_eval/object_depth.hpp"
-#include "tools/support/input_error.hpp"
-#include "tools/support/text.hpp"
 
 namespace plumb {
 namespace {

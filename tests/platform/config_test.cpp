@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "modules/config.hpp"
-#include "tests/platform/temp_file.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

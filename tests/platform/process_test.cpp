@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "platform/clock.hpp"
-#include "tests/platform/temp_file.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/private_network.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "tests/replay/street_log.hpp"
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tools/support/number_file.hpp"
+#include "platform/number_file.hpp"
 
 namespace plumb {
 namespace {

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "platform/number_file.hpp"
 #include "tests/replay/street_log.hpp"
 #include "tools/replay/frame_csv.hpp"
-#include "tools/support/number_file.hpp"
 
 namespace plumb {
 namespace {

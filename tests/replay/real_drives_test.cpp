@@ -5,7 +5,7 @@
 
 #include "platform/log_file.hpp"
 #include "tests/support/kitti_data.hpp"
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tools/eval/kitti_metric.hpp"
 #include "tools/kitti2lcm/convert.hpp"
 #include "tools/replay/pose_track.hpp"

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "platform/kitti/pose_file.hpp"
+#include "platform/number_file.hpp"
 #include "tests/replay/street_log.hpp"
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/run_program.hpp"
-#include "tools/support/number_file.hpp"
-#include "tools/support/pose_file.hpp"
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/run_program.hpp"
 
 namespace plumb {
 namespace {

@@ -8,9 +8,9 @@
 #include "platform/log_file.hpp"
 #include "plumb/camera_calibration_t.hpp"
 #include "plumb/ground_truth_t.hpp"
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/kitti_folder.hpp"
 #include "tests/tools/drives.hpp"
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/kitti_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "modules/geometry/se3.hpp"
-#include "tools/support/pose_file.hpp"
+#include "platform/kitti/pose_file.hpp"
 
 namespace plumb::test {
 

@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/run_program.hpp"
 #include "tests/tools/drives.hpp"
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/run_program.hpp"
 
 namespace plumb {
 namespace {

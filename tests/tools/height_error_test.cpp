@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb::test {
 namespace {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "platform/log_file.hpp"
+#include "tests/support/expect_throw.hpp"
 #include "tests/support/kitti_data.hpp"
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/kitti_folder.hpp"
-#include "tests/tools/run_program.hpp"
+#include "tests/support/kitti_folder.hpp"
+#include "tests/support/run_program.hpp"
 
 namespace plumb {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tests/tools/drives.hpp"
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/temp_folder.hpp"
 
 namespace plumb {
 namespace {

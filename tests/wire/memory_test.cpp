@@ -7,7 +7,7 @@
 #include "modules/vo/vo_wire.hpp"
 #include "platform/bus.hpp"
 #include "platform/health.hpp"
-#include "tests/support/count_allocations.hpp"
+#include "tests/support/count_malloc.hpp"
 #include "tests/wire/sample_output.hpp"
 
 namespace plumb {
@@ -17,13 +17,16 @@ namespace {
 template <typename Work>
 std::int64_t allocations_of(Work work) {
   work();
-  const std::int64_t before = test::g_num_allocations;
+  const std::int64_t before = test::g_num_mallocs;
   for (int i = 0; i < 100; ++i) work();
-  return test::g_num_allocations - before;
+  return test::g_num_mallocs - before;
 }
 
 class WireMemory : public testing::Test {
  protected:
+  void SetUp() override {
+    if (!test::kCountsMallocs) GTEST_SKIP() << "the sanitizer owns malloc";
+  }
   Counters counters_;
   Bus bus_{"memq://", &counters_};
 };

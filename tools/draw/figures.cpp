@@ -2,9 +2,9 @@
 
 #include <numbers>
 
+#include "platform/input_error.hpp"
+#include "platform/text.hpp"
 #include "tools/support/csv_table.hpp"
-#include "tools/support/input_error.hpp"
-#include "tools/support/text.hpp"
 
 namespace plumb {
 namespace {

@@ -13,10 +13,10 @@
 #include "modules/imaging/image_wire.hpp"
 #include "platform/bounded_decode.hpp"
 #include "platform/channels.hpp"
+#include "platform/input_error.hpp"
 #include "platform/log_file.hpp"
+#include "platform/text.hpp"
 #include "tools/draw/figures.hpp"
-#include "tools/support/input_error.hpp"
-#include "tools/support/text.hpp"
 #include "tools/support/tool_main.hpp"
 
 namespace plumb {

@@ -1,7 +1,7 @@
 #include "tools/eval/estimate_csv.hpp"
 
+#include "platform/input_error.hpp"
 #include "tools/support/csv_table.hpp"
-#include "tools/support/input_error.hpp"
 
 namespace plumb {
 namespace {

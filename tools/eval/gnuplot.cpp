@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "tools/support/input_error.hpp"
-#include "tools/support/text.hpp"
+#include "platform/input_error.hpp"
+#include "platform/text.hpp"
 
 namespace plumb {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/support/pose_file.hpp"
+#include "platform/kitti/pose_file.hpp"
 
 namespace plumb {
 

@@ -4,12 +4,12 @@
 #include <iostream>
 #include <string>
 
+#include "platform/input_error.hpp"
+#include "platform/number_file.hpp"
 #include "tools/eval/plots.hpp"
 #include "tools/eval/report_json.hpp"
 #include "tools/eval/report_text.hpp"
 #include "tools/objects_eval/objects_command.hpp"
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
 #include "tools/support/tool_main.hpp"
 
 namespace plumb {

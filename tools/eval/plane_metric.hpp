@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "platform/kitti/plane_file.hpp"
 #include "tools/eval/estimate_csv.hpp"
-#include "tools/support/plane_file.hpp"
 
 namespace plumb {
 

@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <numbers>
 
+#include "platform/input_error.hpp"
 #include "tools/eval/gnuplot.hpp"
-#include "tools/support/input_error.hpp"
 
 namespace plumb {
 namespace {

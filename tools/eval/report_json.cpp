@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "tools/support/input_error.hpp"
+#include "platform/input_error.hpp"
 
 namespace plumb {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/support/text.hpp"
+#include "platform/text.hpp"
 
 namespace plumb {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/support/pose_file.hpp"
+#include "platform/kitti/pose_file.hpp"
 
 namespace plumb {
 

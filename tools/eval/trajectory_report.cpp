@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "tools/support/input_error.hpp"
+#include "platform/input_error.hpp"
 
 namespace plumb {
 namespace {

@@ -5,13 +5,13 @@
 
 #include "modules/imaging/image_wire.hpp"
 #include "platform/channels.hpp"
+#include "platform/input_error.hpp"
+#include "platform/kitti/png_image.hpp"
 #include "platform/log_file.hpp"
+#include "platform/text.hpp"
 #include "plumb/ground_truth_t.hpp"
-#include "tools/kitti2lcm/png_image.hpp"
-#include "tools/support/input_error.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
-#include "tools/support/text.hpp"
 
 namespace plumb {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "tools/kitti2lcm/sequence.hpp"
+#include "platform/kitti/sequence.hpp"
 
 namespace plumb {
 

@@ -5,9 +5,9 @@
 #include <iostream>
 #include <string>
 
+#include "platform/text.hpp"
 #include "tools/kitti2lcm/convert.hpp"
 #include "tools/support/stop_flag.hpp"
-#include "tools/support/text.hpp"
 #include "tools/support/tool_main.hpp"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
+#include "platform/input_error.hpp"
+#include "platform/number_file.hpp"
 
 namespace plumb {
 namespace {

@@ -9,8 +9,8 @@
 #include "modules/detections/detection_cue.hpp"
 #include "modules/detections/foot_point.hpp"
 #include "modules/objects/objects.hpp"
+#include "platform/text.hpp"
 #include "tools/objects_eval/kitti_tracking.hpp"
-#include "tools/support/text.hpp"
 
 namespace plumb {
 namespace {

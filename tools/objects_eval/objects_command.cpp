@@ -10,8 +10,8 @@
 
 #include "modules/config.hpp"
 #include "platform/config.hpp"
+#include "platform/input_error.hpp"
 #include "tools/objects_eval/object_depth.hpp"
-#include "tools/support/input_error.hpp"
 
 namespace plumb {
 namespace {

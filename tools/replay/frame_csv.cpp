@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "platform/text.hpp"
 #include "tools/replay/names.hpp"
-#include "tools/support/text.hpp"
 
 namespace plumb {
 namespace {

@@ -10,16 +10,16 @@
 #include "platform/can_trace.hpp"
 #include "platform/clock.hpp"
 #include "platform/config.hpp"
+#include "platform/input_error.hpp"
 #include "platform/log_file.hpp"
+#include "platform/text.hpp"
 #include "tools/replay/frame_csv.hpp"
 #include "tools/replay/pose_track.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/summary.hpp"
 #include "tools/replay/text_output.hpp"
-#include "tools/support/input_error.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
-#include "tools/support/text.hpp"
 #include "tools/support/tool_main.hpp"
 
 namespace plumb {

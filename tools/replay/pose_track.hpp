@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "platform/kitti/pose_file.hpp"
 #include "plumb/ego_motion_t.hpp"
-#include "tools/support/pose_file.hpp"
 
 namespace plumb {
 

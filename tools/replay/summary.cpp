@@ -1,7 +1,7 @@
 #include "tools/replay/summary.hpp"
 
+#include "platform/text.hpp"
 #include "tools/replay/names.hpp"
-#include "tools/support/text.hpp"
 
 namespace plumb {
 namespace {

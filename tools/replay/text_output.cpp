@@ -1,6 +1,6 @@
 #include "tools/replay/text_output.hpp"
 
-#include "tools/support/input_error.hpp"
+#include "platform/input_error.hpp"
 
 namespace plumb {
 

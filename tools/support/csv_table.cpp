@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
-#include "tools/support/text.hpp"
+#include "platform/input_error.hpp"
+#include "platform/number_file.hpp"
+#include "platform/text.hpp"
 
 namespace plumb {
 namespace {

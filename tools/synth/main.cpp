@@ -2,10 +2,10 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
+#include "tools/support/tool_main.hpp"
 #include "tools/synth/options.hpp"
 #include "tools/synth/stats.hpp"
 #include "tools/synth/writer.hpp"
@@ -16,9 +16,10 @@ std::atomic<bool> g_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 void on_signal(int /*signal*/) { g_stop = true; }
 
-void list_routes() {
+int list_routes() {
   for (const auto& [name, text] : plumb::synth::builtin_routes())
     std::printf("%-12s %s\n", name.c_str(), text.c_str());
+  return 0;
 }
 
 int print_stats(const std::vector<std::string>& folders) {
@@ -54,32 +55,14 @@ int main(int argc, char** argv) {
   CLI::App app{"Renders drives with exact truth, in KITTI odometry layout", "plumb-synth"};
   plumb::synth::Options options;
   bool list = false;
-  app.set_version_flag("--version", PLUMB_VERSION);
   app.add_flag("--list-routes", list, "name the built-in routes and exit");
   plumb::synth::declare(app, options);
   std::vector<std::string> folders;
   CLI::App* stats = app.add_subcommand(
       "stats", "how drives look to an estimator: a table for comparing rendered with real ones");
   stats->add_option("DIR", folders, "folders in KITTI odometry layout")->required();
-  try {
-    app.parse(argc, argv);
-    if (list) {
-      list_routes();
-      return 0;
-    }
+  return plumb::tool_main(&app, argc, argv, [&] {
+    if (list) return list_routes();
     return stats->parsed() ? print_stats(folders) : render(options);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
-    return 2;
-  } catch (const plumb::synth::UsageError& error) {
-    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
-    return 2;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "plumb-synth: %s\n", error.what());
-    return 1;
-  }
+  });
 }

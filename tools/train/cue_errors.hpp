@@ -7,9 +7,9 @@
 
 #include "modules/geometry/se3.hpp"
 #include "modules/ground/ground_sight.hpp"
+#include "platform/kitti/plane_file.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
-#include "tools/support/plane_file.hpp"
 #include "tools/train/sample.hpp"
 
 namespace plumb {

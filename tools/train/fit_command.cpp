@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "modules/ground/ground_model_source.hpp"
-#include "tools/support/input_error.hpp"
+#include "platform/input_error.hpp"
 #include "tools/train/fit_report.hpp"
 
 namespace plumb {

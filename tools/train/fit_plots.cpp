@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "platform/input_error.hpp"
 #include "tools/eval/gnuplot.hpp"
-#include "tools/support/input_error.hpp"
 #include "tools/train/fit_report.hpp"
 
 namespace plumb {

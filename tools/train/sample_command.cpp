@@ -6,11 +6,11 @@
 
 #include "modules/vo/vo_wire.hpp"
 #include "platform/config.hpp"
+#include "platform/input_error.hpp"
+#include "platform/text.hpp"
 #include "tools/replay/replay.hpp"
-#include "tools/support/input_error.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
-#include "tools/support/text.hpp"
 #include "tools/train/sample_file.hpp"
 #include "tools/train/sampler.hpp"
 

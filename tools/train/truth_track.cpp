@@ -3,9 +3,9 @@
 #include "modules/geometry/pose_wire.hpp"
 #include "platform/bounded_decode.hpp"
 #include "platform/channels.hpp"
+#include "platform/input_error.hpp"
 #include "platform/log_file.hpp"
 #include "plumb/ground_truth_t.hpp"
-#include "tools/support/input_error.hpp"
 
 namespace plumb {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "modules/geometry/se3.hpp"
-#include "tools/support/plane_file.hpp"
+#include "platform/kitti/plane_file.hpp"
 
 namespace plumb {
 

@@ -10,7 +10,7 @@
 #include "modules/ground/paper/ground_algorithm.hpp"
 #include "platform/config.hpp"
 #include "tests/ground/road_scene.hpp"
-#include "tests/platform/temp_file.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

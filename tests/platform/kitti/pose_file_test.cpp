@@ -1,11 +1,11 @@
-#include "tools/support/pose_file.hpp"
+#include "platform/kitti/pose_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include "modules/geometry/se3.hpp"
+#include "tests/support/expect_throw.hpp"
 #include "tests/support/kitti_data.hpp"
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

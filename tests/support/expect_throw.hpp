@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tools/support/input_error.hpp"
+#include "platform/input_error.hpp"
 
 namespace plumb::test {
 

@@ -1,4 +1,4 @@
-/// What is wrong with a file that the user gave. Tools print it and exit with 2.
+/// What is wrong with a file that the user gave. Programs print it and exit with 2.
 #pragma once
 
 #include <stdexcept>

@@ -1,13 +1,13 @@
-#include "tools/kitti2lcm/sequence.hpp"
+#include "platform/kitti/sequence.hpp"
 
 #include <algorithm>
 
-#include "tools/kitti2lcm/calibration.hpp"
-#include "tools/kitti2lcm/image_list.hpp"
-#include "tools/kitti2lcm/oxts.hpp"
-#include "tools/kitti2lcm/times.hpp"
-#include "tools/support/input_error.hpp"
-#include "tools/support/text.hpp"
+#include "platform/input_error.hpp"
+#include "platform/kitti/calibration.hpp"
+#include "platform/kitti/image_list.hpp"
+#include "platform/kitti/oxts.hpp"
+#include "platform/kitti/times.hpp"
+#include "platform/text.hpp"
 
 namespace plumb {
 namespace {

@@ -1,12 +1,12 @@
-#include "tools/support/pose_file.hpp"
+#include "platform/kitti/pose_file.hpp"
 
 #include <Eigen/LU>
 
 #include <cstdio>
 #include <string>
 
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
+#include "platform/input_error.hpp"
+#include "platform/number_file.hpp"
 
 namespace plumb {
 

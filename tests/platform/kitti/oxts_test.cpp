@@ -1,12 +1,12 @@
-#include "tools/kitti2lcm/oxts.hpp"
+#include "platform/kitti/oxts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/temp_folder.hpp"
-#include "tools/support/text.hpp"
+#include "platform/text.hpp"
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

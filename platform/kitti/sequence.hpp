@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "modules/geometry/camera_model.hpp"
-#include "tools/support/plane_file.hpp"
-#include "tools/support/pose_file.hpp"
+#include "platform/kitti/plane_file.hpp"
+#include "platform/kitti/pose_file.hpp"
 
 namespace plumb {
 

@@ -1,12 +1,10 @@
 /// Runs one of our programs the way a user does.
 #pragma once
 
-#include <sys/wait.h>
-
-#include <cstdio>
 #include <string>
 
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb::test {
 
@@ -32,14 +30,14 @@ inline std::string shell_word(const std::string& text) {
 
 /// `arguments` go through the shell. `folder` takes the captured output.
 inline ProgramResult run_program(const TempFolder& folder, const std::string& name,
-                                 const std::string& arguments) {
+                                 const std::string& arguments, double timeout_s = 100.0) {
   const std::string out = (folder / "stdout.txt").string();
   const std::string err = (folder / "stderr.txt").string();
-  const std::string command =
-      std::string(PLUMB_BIN_DIR) + "/" + name + " " + arguments + " >" + out + " 2>" + err;
-  const int status = std::system(command.c_str());
+  ChildProcess shell({"sh", "-c",
+                      "exec " + shell_word(std::string(PLUMB_BIN_DIR) + "/" + name) + " " +
+                          arguments + " >" + shell_word(out) + " 2>" + shell_word(err)});
   ProgramResult result;
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  result.exit_code = shell.wait(timeout_s);
   result.out = read_text(out);
   result.err = read_text(err);
   return result;

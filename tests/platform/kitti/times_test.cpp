@@ -1,10 +1,10 @@
-#include "tools/kitti2lcm/times.hpp"
+#include "platform/kitti/times.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/temp_folder.hpp"
-#include "tools/kitti2lcm/sequence.hpp"
+#include "platform/kitti/sequence.hpp"
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -5,8 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "tests/tools/temp_folder.hpp"
-#include "tools/support/text.hpp"
+#include "platform/text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb::test {
 
@@ -24,6 +24,14 @@ inline void write_image(const TempFolder& folder, const std::string& name, const
   cv::imwrite((folder / name).string(), image);
 }
 
+/// times.txt with one row per image, 0.1 s apart from `first_s` on.
+inline void write_times(const TempFolder& folder, const std::string& name, int num_rows,
+                        double first_s = 0.0) {
+  std::string rows;
+  for (int i = 0; i < num_rows; ++i) rows += format("%.6e\n", first_s + 0.1 * i);
+  folder.write(name, rows);
+}
+
 inline constexpr const char* kCalibration =
     "P0: 80 0 48 0 0 80 36 0 0 0 1 0\n"
     "P2: 80 0 48 4.8 0 80 36 0 0 0 1 0\n";
@@ -32,12 +40,9 @@ inline constexpr const char* kCalibration =
 /// image.
 inline std::filesystem::path write_odometry(const TempFolder& folder, int num_frames,
                                             int first = 0) {
-  std::string times;
-  for (int i = 0; i < num_frames; ++i) {
-    write_image(folder, format("seq/image_0/%06d.png", first + i), test_image(first + i));
-    times += format("%.6e\n", 0.1 * i);
-  }
-  folder.write("seq/times.txt", times);
+  for (int i = first; i < first + num_frames; ++i)
+    write_image(folder, format("seq/image_0/%06d.png", i), test_image(i));
+  write_times(folder, "seq/times.txt", num_frames);
   folder.write("seq/calib.txt", kCalibration);
   return folder / "seq";
 }
@@ -59,5 +64,36 @@ inline std::filesystem::path write_raw(const TempFolder& folder, int num_frames)
   folder.write("date/calib_cam_to_cam.txt", kRawCalibration);
   return folder / "date/drive";
 }
+
+/// An odometry sequence whose files a test changes one by one; focal lengths and centre all differ.
+class KittiFolder {
+ public:
+  static constexpr int kWidth = 96;
+  static constexpr int kHeight = 64;
+
+  KittiFolder() {
+    folder_.write("calib.txt",
+                  "P0: 80.5 0 47.25 0 0 81.5 31.75 0 0 0 1 0\n"
+                  "P2: 90.5 0 48.25 4.5 0 91.5 32.75 0 0 0 1 0\n");
+  }
+  [[nodiscard]] std::string path() const { return folder_.path().string(); }
+  [[nodiscard]] std::string file(int number) const { return (folder_ / name_of(number)).string(); }
+  [[nodiscard]] static cv::Mat image(int number) { return test_image(number, kWidth, kHeight); }
+
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
+  void write_image(int number, const cv::Mat& pixels) const {
+    test::write_image(folder_, name_of(number), pixels);
+  }
+  void write_image(int number) const { write_image(number, image(number)); }
+  /// `count` images from `first` on, the first at `first` / 10 s.
+  void fill(int first, int count) const {
+    for (int i = first; i < first + count; ++i) write_image(i);
+    write_times(folder_, "times.txt", count, 0.1 * first);
+  }
+
+ private:
+  static std::string name_of(int number) { return format("image_0/%06d.png", number); }
+  TempFolder folder_;
+};
 
 }  // namespace plumb::test

@@ -1,11 +1,11 @@
-#include "tools/support/plane_file.hpp"
+#include "platform/kitti/plane_file.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
+#include "platform/input_error.hpp"
+#include "platform/number_file.hpp"
 
 namespace plumb {
 namespace {

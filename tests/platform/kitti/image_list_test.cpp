@@ -1,9 +1,9 @@
-#include "tools/kitti2lcm/image_list.hpp"
+#include "platform/kitti/image_list.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -1,11 +1,11 @@
-#include "tools/support/number_file.hpp"
+#include "platform/number_file.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 
-#include "tools/support/input_error.hpp"
+#include "platform/input_error.hpp"
 
 namespace plumb {
 namespace {

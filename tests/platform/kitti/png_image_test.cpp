@@ -1,12 +1,12 @@
-#include "tools/kitti2lcm/png_image.hpp"
+#include "platform/kitti/png_image.hpp"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/kitti_folder.hpp"
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/kitti_folder.hpp"
 
 namespace plumb {
 namespace {

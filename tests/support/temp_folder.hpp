@@ -1,4 +1,4 @@
-/// A folder that is there for one test.
+/// Folders and files that are there for one test.
 #pragma once
 
 #include <unistd.h>
@@ -45,5 +45,22 @@ inline std::string read_text(const std::filesystem::path& path) {
   text << file.rdbuf();
   return text.str();
 }
+
+/// One file with given content in a folder of its own.
+class TempFile {
+ public:
+  explicit TempFile(const std::string& suffix, const std::string& content = "")
+      : path_(folder_.write("file" + suffix, content).string()) {}
+
+  void write(const std::string& content) const {
+    std::ofstream(path_, std::ios::binary) << content;
+  }
+  [[nodiscard]] std::string read() const { return read_text(path_); }
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  TempFolder folder_;
+  std::string path_;
+};
 
 }  // namespace plumb::test

@@ -1,9 +1,9 @@
-#include "tools/kitti2lcm/calibration.hpp"
+#include "platform/kitti/calibration.hpp"
 
 #include <cmath>
 
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
+#include "platform/input_error.hpp"
+#include "platform/number_file.hpp"
 
 namespace plumb {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "modules/geometry/se3.hpp"
-#include "tools/kitti2lcm/image_list.hpp"
+#include "platform/kitti/image_list.hpp"
 
 namespace plumb {
 

@@ -1,4 +1,4 @@
-#include "tools/support/text.hpp"
+#include "platform/text.hpp"
 
 #include <cstdarg>
 #include <cstdio>

@@ -1,11 +1,11 @@
-#include "tools/support/plane_file.hpp"
+#include "platform/kitti/plane_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/temp_folder.hpp"
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {

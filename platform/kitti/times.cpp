@@ -1,13 +1,13 @@
-#include "tools/kitti2lcm/times.hpp"
+#include "platform/kitti/times.hpp"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
-#include "tools/kitti2lcm/sequence.hpp"
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
+#include "platform/input_error.hpp"
+#include "platform/kitti/sequence.hpp"
+#include "platform/number_file.hpp"
 
 namespace plumb {
 namespace {

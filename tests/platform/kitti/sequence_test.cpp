@@ -1,10 +1,10 @@
-#include "tools/kitti2lcm/sequence.hpp"
+#include "platform/kitti/sequence.hpp"
 
 #include <gtest/gtest.h>
 
+#include "tests/support/expect_throw.hpp"
+#include "tests/support/kitti_folder.hpp"
 #include "tests/tools/drives.hpp"
-#include "tests/tools/expect_throw.hpp"
-#include "tests/tools/kitti_folder.hpp"
 
 namespace plumb {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/kitti2lcm/png_image.hpp"
+#include "platform/kitti/png_image.hpp"
 
 #include <cstring>
 #include <fstream>
@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "tools/support/input_error.hpp"
+#include "platform/input_error.hpp"
 
 namespace plumb {
 namespace {

@@ -1,10 +1,10 @@
-#include "tools/kitti2lcm/image_list.hpp"
+#include "platform/kitti/image_list.hpp"
 
 #include <algorithm>
 #include <charconv>
 
-#include "tools/support/input_error.hpp"
-#include "tools/support/text.hpp"
+#include "platform/input_error.hpp"
+#include "platform/text.hpp"
 
 namespace plumb {
 namespace {

@@ -1,13 +1,13 @@
-#include "tools/kitti2lcm/oxts.hpp"
+#include "platform/kitti/oxts.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
-#include "tools/kitti2lcm/calibration.hpp"
-#include "tools/support/input_error.hpp"
-#include "tools/support/number_file.hpp"
-#include "tools/support/text.hpp"
+#include "platform/input_error.hpp"
+#include "platform/kitti/calibration.hpp"
+#include "platform/number_file.hpp"
+#include "platform/text.hpp"
 
 namespace plumb {
 namespace {

@@ -1,0 +1,12 @@
+# `plumb-x --version` prints "plumb-x VERSION" and nothing else.
+file(GLOB programs ${BIN}/plumb-*)
+if(NOT programs)
+  message(FATAL_ERROR "no programs in ${BIN}")
+endif()
+foreach(program ${programs})
+  get_filename_component(name ${program} NAME)
+  execute_process(COMMAND ${program} --version OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE code)
+  if(NOT code EQUAL 0 OR NOT said STREQUAL "${name} ${VERSION}\n")
+    message(SEND_ERROR "${name} --version ends with ${code} and says: ${said}")
+  endif()
+endforeach()
