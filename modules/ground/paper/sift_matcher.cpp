@@ -6,6 +6,8 @@
 #include <opencv2/features2d.hpp>
 #include <vector>
 
+#include "modules/ground/lanes.hpp"
+
 namespace plumb {
 namespace {
 
@@ -18,6 +20,8 @@ constexpr double kSigma = 1.6;
 constexpr float kRatio = 0.8F;
 // Descriptors reach this far beyond a feature; without it the region would lose its border.
 constexpr int kMarginPx = 16;
+constexpr int kDescriptorSize = 128;
+static_assert(kDescriptorSize % kLanes == 0);
 
 struct Features {
   std::vector<cv::KeyPoint> points;
@@ -42,12 +46,18 @@ struct Nearest {
   }
 };
 
+// Elements are whole numbers below 256, so the sum is exact in any order.
 float squared_distance(const cv::Mat& a, std::size_t i, const cv::Mat& b, std::size_t j) {
   const float* p = a.ptr<float>(static_cast<int>(i));
   const float* q = b.ptr<float>(static_cast<int>(j));
-  float sum = 0.0F;
-  for (int k = 0; k < a.cols; ++k) sum += (p[k] - q[k]) * (p[k] - q[k]);
-  return sum;
+  Lanes sum{};
+  for (int k = 0; k < kDescriptorSize; k += kLanes) {
+    Lanes x, y;
+    load(p + k, &x);
+    load(q + k, &y);
+    sum += (x - y) * (x - y);
+  }
+  return static_cast<float>(sum_lanes(sum));
 }
 
 }  // namespace
