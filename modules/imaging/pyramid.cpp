@@ -13,7 +13,7 @@ void halve(const ImageView& from, std::uint8_t* to, const ImageView& shape) {
     const std::uint8_t* upper = from.row(2 * v);
     const std::uint8_t* lower = from.row(2 * v + 1);
     std::uint8_t* out = to + v * shape.stride_bytes;
-    for (int u = 0; u < shape.width_px; ++u) {
+    for (std::ptrdiff_t u = 0; u < shape.width_px; ++u) {
       const int sum = upper[2 * u] + upper[2 * u + 1] + lower[2 * u] + lower[2 * u + 1];
       out[u] = static_cast<std::uint8_t>((sum + 2) >> 2);
     }

@@ -21,7 +21,7 @@ struct Corner {
 class View {
  public:
   View(const CameraModel& camera, const RoadPlane& plane, const StateVector& state, double inset_m)
-      : camera_(camera), state_(state), camera_height_m_(plane.height_m) {
+      : camera_(camera), camera_height_m_(plane.height_m) {
     const double p = plane.pitch_rad + state(kPlaneError);
     const double cp = std::cos(p), sp = std::sin(p);
     const double cr = std::cos(plane.roll_rad), sr = std::sin(plane.roll_rad);
@@ -92,7 +92,6 @@ class View {
   }
 
   const CameraModel& camera_;
-  const StateVector& state_;
   double camera_height_m_;
   double half_length_, half_width_, height_, inset_m_;
   Eigen::Vector3d forward_, left_, up_, forward_by_roll_, left_by_roll_, up_by_roll_;

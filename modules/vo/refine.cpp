@@ -20,13 +20,13 @@ constexpr double kRhoPriorInformation = 1.0 / 0.09;
 // Solves A x = b in place for a symmetric positive definite A (row major, upper triangle given).
 bool solve_cholesky(double* A, double* b, int n) {
   for (int j = 0; j < n; ++j) {
-    double* row = A + j * n;
+    double* row = A + static_cast<std::ptrdiff_t>(j) * n;
     if (!(row[j] > 0.0)) return false;
     const double inv = 1.0 / std::sqrt(row[j]);
     for (int k = j; k < n; ++k) row[k] *= inv;
     for (int i = j + 1; i < n; ++i) {
       const double f = row[i];
-      double* below = A + i * n;
+      double* below = A + static_cast<std::ptrdiff_t>(i) * n;
       for (int k = i; k < n; ++k) below[k] -= f * row[k];
     }
   }
@@ -97,23 +97,23 @@ void WindowRefiner::add_track(const Window& window, const TrackTable& tracks,
     Matrix26d J_frame;
     if (frame_free >= 0) {
       J_frame = frame_jacobian(D, p.Y, track.rho);
-      const Matrix26d wJ = weight * J_frame;
-      block(frame_free, frame_free).noalias() += wJ.transpose() * J_frame;
-      gradient_[static_cast<std::size_t>(frame_free)].noalias() += wJ.transpose() * p.residual_px;
+      const Matrix26d WJ = weight * J_frame;
+      block(frame_free, frame_free).noalias() += WJ.transpose() * J_frame;
+      gradient_[static_cast<std::size_t>(frame_free)].noalias() += WJ.transpose() * p.residual_px;
       Coupling& c = s->couplings[static_cast<std::size_t>(s->num_couplings++)];
       c.free = frame_free;
-      c.w.noalias() = wJ.transpose() * d;
+      c.w.noalias() = WJ.transpose() * d;
     }
     if (host_free >= 0) {
       const Matrix26d J_host = host_jacobian(D, T_frame_host.R, track.host_xy, track.rho);
-      const Matrix26d wJ = weight * J_host;
-      block(host_free, host_free).noalias() += wJ.transpose() * J_host;
-      gradient_[static_cast<std::size_t>(host_free)].noalias() += wJ.transpose() * p.residual_px;
-      host_w.noalias() += wJ.transpose() * d;
+      const Matrix26d WJ = weight * J_host;
+      block(host_free, host_free).noalias() += WJ.transpose() * J_host;
+      gradient_[static_cast<std::size_t>(host_free)].noalias() += WJ.transpose() * p.residual_px;
+      host_w.noalias() += WJ.transpose() * d;
       if (frame_free > host_free) {
-        block(host_free, frame_free).noalias() += wJ.transpose() * J_frame;
+        block(host_free, frame_free).noalias() += WJ.transpose() * J_frame;
       } else if (frame_free >= 0) {
-        block(frame_free, host_free).noalias() += J_frame.transpose() * wJ;
+        block(frame_free, host_free).noalias() += J_frame.transpose() * WJ;
       }
     }
   }
@@ -161,20 +161,24 @@ bool WindowRefiner::solve() {
       const Matrix6d& B = block(r, c);
       for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 6; ++j) {
-          dense_[static_cast<std::size_t>((6 * r + i) * n + 6 * c + j)] = B(i, j);
+          const int at = (6 * r + i) * n + 6 * c + j;
+          dense_[static_cast<std::size_t>(at)] = B(i, j);
         }
       }
     }
     for (int i = 0; i < 6; ++i) {
-      double& diagonal = dense_[static_cast<std::size_t>((6 * r + i) * (n + 1))];
+      const int row = 6 * r + i;
+      const int at = row * (n + 1);
+      double& diagonal = dense_[static_cast<std::size_t>(at)];
       diagonal = diagonal * (1.0 + damping_) + kDiagonalFloor;
-      rhs_[static_cast<std::size_t>(6 * r + i)] = gradient_[static_cast<std::size_t>(r)][i];
+      rhs_[static_cast<std::size_t>(row)] = gradient_[static_cast<std::size_t>(r)][i];
     }
   }
   if (!solve_cholesky(dense_.data(), rhs_.data(), n)) return false;
   for (int r = 0; r < num_free; ++r) {
     for (int i = 0; i < 6; ++i) {
-      step_[static_cast<std::size_t>(r)][i] = rhs_[static_cast<std::size_t>(6 * r + i)];
+      const int row = 6 * r + i;
+      step_[static_cast<std::size_t>(r)][i] = rhs_[static_cast<std::size_t>(row)];
     }
     if (!step_[static_cast<std::size_t>(r)].allFinite()) return false;
   }
