@@ -70,7 +70,7 @@ Slice PaperDenseCue::slice(const ImageView& old_image, const Se3& T_old_cam,
   const double half = along == kH ? kSliceHeightRatio * z(kH) : kSliceTilt;
   Slice out;
   for (std::size_t i = 0; i < kSliceSamples; ++i) {
-    const double t = 2.0 * static_cast<double>(i) / (kSliceSamples - 1) - 1.0;
+    const double t = 2.0 * static_cast<double>(i) / static_cast<double>(kSliceSamples - 1) - 1.0;
     Eigen::Vector3d at = z;
     at(along) += half * t;
     out.x[i] = at(along);
