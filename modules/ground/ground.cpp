@@ -169,7 +169,7 @@ void GroundEstimator::Impl::follow_scale_epoch(const VoOutput& vo) {
 void GroundEstimator::Impl::measure_cues(const VoOutput& vo, StageProbe& probe) {
   bool prepared = prepare_plane(vo);
   if (prepared) measure_dense(vo);
-  if (!filter.started() && frame.dense_status != CueStatus::kUsed && search_start(vo)) {
+  if (!filter.sure() && frame.dense_status != CueStatus::kUsed && search_start(vo)) {
     prepared = true;
   }
   probe.mark("dense");
@@ -192,14 +192,15 @@ bool GroundEstimator::Impl::prepare_plane(const VoOutput& vo) {
 
   const double n1 = filter.started() ? filter.state()(0) : 0.0;
   frame.normal_cam = normal_across(frame.travel.direction, n1);
-  if (filter.started()) {
+  if (filter.sure()) {
     frame.height = filter.height();
   } else {
     PointsRequest request{frame.normal_cam, 0.0, kMinPointRaySlope, road_shape()};
     const PointsObservation first = points_cue.measure(vo, request);
     const bool enough = first.ok && first.num_inliers >= kLeastPointsToStart;
-    frame.height =
-        enough ? std::exp(first.ln_height) : points_cue.rough_height(vo, frame.normal_cam);
+    frame.height = enough             ? std::exp(first.ln_height)
+                   : filter.started() ? filter.height()
+                                      : points_cue.rough_height(vo, frame.normal_cam);
   }
   if (!(frame.height > 0.0)) return false;
   frame.context = {std::abs(frame.travel.curvature) * frame.height,
@@ -221,13 +222,13 @@ void GroundEstimator::Impl::measure_dense(const VoOutput& vo) {
   const DenseRequest request{frame.normal_cam, frame.height, settled ? kSweepSettled : kSweepWide,
                              road_shape()};
   frame.dense = dense_cue.measure(*frame.image, pairs, request);
-  const double least = filter.started() ? kLeastDenseQuality : kStartDenseQuality;
+  const double least = filter.sure() ? kLeastDenseQuality : kStartDenseQuality;
   const bool good = frame.dense.ok && covariance->dense_quality(frame.dense) >= least;
   frame.dense_status = good ? CueStatus::kUsed : CueStatus::kFailed;
 }
 
 void GroundEstimator::Impl::measure_points(const VoOutput& vo) {
-  const bool refined = frame.dense_status == CueStatus::kUsed && !filter.started();
+  const bool refined = frame.dense_status == CueStatus::kUsed && !filter.sure();
   const double height = refined ? 1.0 / frame.dense.q.norm() : frame.height;
   const PointsRequest request{frame.normal_cam, height, kMinPointRaySlope, road_shape()};
   frame.points = points_cue.measure(vo, request);
@@ -284,7 +285,8 @@ void GroundEstimator::Impl::start_filter() {
 
 void GroundEstimator::Impl::fuse() {
   if (!frame.searched) return;
-  if (!filter.started()) start_filter();
+  const bool starts = !filter.started();
+  if (starts) start_filter();
   if (!filter.started()) return;
   filter.observe_level_roll();
   const CueContext& context = frame.context;
@@ -301,6 +303,7 @@ void GroundEstimator::Impl::fuse() {
                                                      covariance->points(frame.points, context))) {
     frame.points_status = CueStatus::kGated;
   }
+  if (starts && frame.height_refused()) filter.forget();  // not the road: a truck's back, a mirror
   filter.end_frame(frame.height_measured(), frame.height_refused());
 }
 

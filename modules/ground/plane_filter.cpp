@@ -13,6 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 constexpr double kStartTiltStd = 1.0 * kDegree;
 constexpr double kStartLnHeightStd = 0.1;
+constexpr double kSureLnStd = 0.25;  // half of the dense cue's widest sweep
 
 // Normal: pose noise per frame, and road curvature plus suspension per reference step (0.6 camera
 // heights).
@@ -57,6 +58,8 @@ Eigen::Matrix3d plane_jacobian(const Eigen::Vector3d& x) {
 double PlaneFilter::height() const { return std::exp(x_(2)); }
 
 double PlaneFilter::ln_height_std() const { return std::sqrt(P_(2, 2)); }
+
+bool PlaneFilter::sure() const { return started_ && ln_height_std() < kSureLnStd; }
 
 void PlaneFilter::start(const Eigen::Vector3d& normal, double ln_height) {
   started_ = true;

@@ -29,9 +29,13 @@ class PlaneFilter {
   [[nodiscard]] Eigen::Vector3d normal() const { return normal_of_state(x_); }
   [[nodiscard]] double height() const;
   [[nodiscard]] double ln_height_std() const;
+  /// The height is known well enough to look for the road near it; false after VO carried its unit over a long gap.
+  [[nodiscard]] bool sure() const;
 
   /// First estimate.
   void start(const Eigen::Vector3d& normal, double ln_height);
+  /// Back to before the start.
+  void forget() { started_ = false; }
   /// VO began a new unit: `ln_ratio_std` is what is known of old against new; NaN: nothing.
   void change_unit(double ln_ratio_std);
 

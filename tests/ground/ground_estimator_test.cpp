@@ -169,6 +169,21 @@ TEST(GroundEstimator, FollowsANewUnitWhoseRatioIsRoughlyKnown) {
   EXPECT_NEAR(run.scale_error(out), 0.0, 0.02);
 }
 
+// After a long gap the carried unit may be off by more than the dense cue's sweep reaches.
+TEST(GroundEstimator, FindsANewUnitFarFromTheOneCarried) {
+  for (const double factor : {0.45, 1.0, 2.2}) {
+    Rehearsal run;
+    for (int k = 0; k < 18; ++k) run.step(k);
+    run.script.metres_per_vo *= factor;
+    run.epoch = 1;
+    run.carry_std = 0.6;
+    for (int k = 18; k < 22; ++k) run.step(k);
+    const GroundOutput& out = run.step(22);
+    EXPECT_NEAR(run.scale_error(out), 0.0, 0.03) << factor;
+    EXPECT_LT(out.ego.log_scale_std, 0.1) << factor;
+  }
+}
+
 TEST(GroundEstimator, StartsAnewInAUnitOfUnknownRatioWithoutLosingItsPlace) {
   Rehearsal run;
   for (int k = 0; k < 18; ++k) run.step(k);
