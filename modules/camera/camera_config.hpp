@@ -34,6 +34,7 @@ struct CameraConfig {
   double rectified_cy_px = 0.0;
 
   double residual_k1 = 0.0;
+  double residual_k2 = 0.0;
   double camera_height_m = 0.0;
 
   // What the car itself covers, in the published image.
@@ -90,7 +91,9 @@ struct CameraConfig {
     field("camera.rectified_fy_px", c.rectified_fy_px, 0.0, 1e5, "published; 0: camera.fy_px");
     field("camera.rectified_cx_px", c.rectified_cx_px, 0.0, 8192.0, "published; 0: camera.cx_px");
     field("camera.rectified_cy_px", c.rectified_cy_px, 0.0, 8192.0, "published; 0: camera.cy_px");
-    field("camera.residual_k1", c.residual_k1, -0.1, 0.1, "radial term left after rectification");
+    field("camera.residual_k1", c.residual_k1, -0.1, 0.1,
+          "radial term of r^2 left after rectification");
+    field("camera.residual_k2", c.residual_k2, -0.1, 0.1, "the same, of r^4");
     field("camera.camera_height_m", c.camera_height_m, 0.0, 4.0,
           "optical centre above the road, unloaded; 0: ground.camera_height_m");
   }

@@ -63,7 +63,11 @@ void KittiSource::complete(CameraConfig* config) const {
   take_or_compare("camera.fy_px", camera.fy_px, &config->fy_px);
   take_or_compare("camera.cx_px", camera.cx_px, &config->cx_px);
   take_or_compare("camera.cy_px", camera.cy_px, &config->cy_px);
-  if (config->residual_k1 == 0.0) config->residual_k1 = camera.residual_k1;
+  // One lens, one pair: a term of the settings is not mixed with one of the folder.
+  if (config->residual_k1 == 0.0 && config->residual_k2 == 0.0) {
+    config->residual_k1 = camera.residual_k1;
+    config->residual_k2 = camera.residual_k2;
+  }
   if (config->camera_height_m == 0.0) config->camera_height_m = camera.camera_height_m;
 }
 

@@ -13,12 +13,8 @@ constexpr double kLeastSlope = 1e-4;  ///< n . ray below this: no road within 10
 NormalizedPixel normalize_pixel(const CameraModel& camera, const Eigen::Vector2d& px) {
   NormalizedPixel result;
   result.xy = camera.to_normalized(px);
-  const double k1 = camera.residual_k1;
-  const Eigen::Matrix2d distortion =
-      (1.0 + k1 * result.xy.squaredNorm()) * Eigen::Matrix2d::Identity() +
-      2.0 * k1 * result.xy * result.xy.transpose();
   const Eigen::Vector2d inverse_focal(1.0 / camera.fx_px, 1.0 / camera.fy_px);
-  result.J_px = distortion.inverse() * inverse_focal.asDiagonal();
+  result.J_px = camera.distortion_jacobian(result.xy).inverse() * inverse_focal.asDiagonal();
   return result;
 }
 

@@ -1,8 +1,8 @@
-/// Pinhole camera with the radial term that rectification left behind.
+/// Pinhole camera with the radial terms that rectification left behind.
 ///
 /// Frames  cam: x right, y down, z forward.  img: u right, v down, (0,0) is the centre of the upper
-/// left pixel. Model   r2 = x^2 + y^2 with (x, y) = (X/Z, Y/Z);  u = fx x (1 + k1 r2) + cx,  v = fy
-/// y (1 + k1 r2) + cy.
+/// left pixel. Model   r2 = x^2 + y^2 with (x, y) = (X/Z, Y/Z), s = 1 + k1 r2 + k2 r2^2;
+/// u = fx x s + cx,  v = fy y s + cy.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,8 @@ struct CameraModel {
   double fy_px = 0.0;
   double cx_px = 0.0;
   double cy_px = 0.0;
-  double residual_k1 = 0.0;      ///< [-] radial term left in "rectified" images
+  double residual_k1 = 0.0;      ///< [-] radial term left in "rectified" images, of r^2
+  double residual_k2 = 0.0;      ///< [-] the same, of r^4
   double camera_height_m = 0.0;  ///< optical centre above the road; 0 when the rig does not say
 
   /// Pixel of a point in cam. @pre p_cam.z() > 0
@@ -27,22 +28,34 @@ struct CameraModel {
 
   /// Pixel of undistorted normalised coordinates (X/Z, Y/Z).
   [[nodiscard]] Eigen::Vector2d from_normalized(const Eigen::Vector2d& xy) const {
-    const double s = 1.0 + residual_k1 * xy.squaredNorm();
+    const double s = radial(xy.squaredNorm());
     return {fx_px * xy.x() * s + cx_px, fy_px * xy.y() * s + cy_px};
   }
 
-  /// Undistorted normalised coordinates (X/Z, Y/Z) of a pixel; fixed-point inverse, 1e-9 for |k1| <
-  /// 0.05.
+  /// Undistorted normalised coordinates (X/Z, Y/Z) of a pixel; fixed-point inverse, 1e-9 where the
+  /// radial terms move the pixel by less than 5 %.
   [[nodiscard]] Eigen::Vector2d to_normalized(const Eigen::Vector2d& px) const {
     const Eigen::Vector2d distorted((px.x() - cx_px) / fx_px, (px.y() - cy_px) / fy_px);
     Eigen::Vector2d xy = distorted;
-    for (int i = 0; i < 8; ++i) xy = distorted / (1.0 + residual_k1 * xy.squaredNorm());
+    for (int i = 0; i < 8; ++i) xy = distorted / radial(xy.squaredNorm());
     return xy;
   }
 
   /// Ray with z = 1 through a pixel.
   [[nodiscard]] Eigen::Vector3d unproject(const Eigen::Vector2d& px) const {
     return to_normalized(px).homogeneous();
+  }
+
+  /// d(distorted) / d(undistorted) normalised coordinates, 2 x 2 [-].
+  [[nodiscard]] Eigen::Matrix2d distortion_jacobian(const Eigen::Vector2d& xy) const {
+    const double r2 = xy.squaredNorm();
+    return radial(r2) * Eigen::Matrix2d::Identity() +
+           2.0 * (residual_k1 + 2.0 * residual_k2 * r2) * xy * xy.transpose();
+  }
+
+  /// Distorted over undistorted radius.
+  [[nodiscard]] double radial(double r2) const {
+    return 1.0 + r2 * (residual_k1 + r2 * residual_k2);
   }
 };
 

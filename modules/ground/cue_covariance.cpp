@@ -29,12 +29,22 @@ constexpr double kSureCorrelation = 0.8;
 // Images nearer together than this see the same road again; their errors are the same errors.
 constexpr double kIndependentStepRatio = 0.6;
 
+// Within one turn the road's crossfall, the car's lean and what calibration leaves over keep their sign: its images are
+// one sight with one error. VO's own scale is the better witness there. Per unit of the path's curvature.
+constexpr double kTurnRepetition = 40.0;
+
 /// How many images share one independent view of the road.
 double repetition(const CueContext& context) {
-  return std::max(1.0, kIndependentStepRatio / std::max(1e-6, context.step_ratio));
+  return std::max(1.0, kIndependentStepRatio / std::max(1e-6, context.step_ratio)) *
+         turn_repetition(context);
 }
 
 }  // namespace
+
+double turn_repetition(const CueContext& context) {
+  const double growth = 1.0 + kTurnRepetition * context.turn_ratio;
+  return growth * growth;
+}
 
 Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q) {
   const double norm = q.norm();

@@ -54,6 +54,9 @@ class FloorCovariance final : public CueCovariance {
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
 };
 
+/// How much longer than on the straight a cue's error lasts in a turn; 1 on the straight.
+[[nodiscard]] double turn_repetition(const CueContext& context);
+
 /// (n1, n3, ln h) of a plane q = n/h.
 [[nodiscard]] Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q);
 

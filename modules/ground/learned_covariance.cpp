@@ -61,11 +61,11 @@ double LearnedCovariance::travel(const Travel& /*travel*/, const CueContext& con
 }
 
 double LearnedCovariance::dense_repetition(const CueContext& context) const {
-  return repetition_of(model_.dense_memory_ratio, context.step_ratio);
+  return turn_repetition(context) * repetition_of(model_.dense_memory_ratio, context.step_ratio);
 }
 
 double LearnedCovariance::points_repetition(const CueContext& context) const {
-  return repetition_of(model_.points_memory_ratio, context.step_ratio);
+  return turn_repetition(context) * repetition_of(model_.points_memory_ratio, context.step_ratio);
 }
 
 double LearnedCovariance::travel_repetition(const CueContext& context) const {

@@ -48,7 +48,8 @@ inline void land(const Homography& h, const LevelCamera& camera, const ImageView
   out->inverse_depth = 1.0F / depth;
   out->xn = (h.g[0][0] * x + h.g[0][1] * y + h.g[0][2]) * out->inverse_depth;
   out->yn = (h.g[1][0] * x + h.g[1][1] * y + h.g[1][2]) * out->inverse_depth;
-  const Lanes radial = 1.0F + camera.k1 * (out->xn * out->xn + out->yn * out->yn);
+  const Lanes r2 = out->xn * out->xn + out->yn * out->yn;
+  const Lanes radial = 1.0F + r2 * (camera.k1 + r2 * camera.k2);
   const Lanes u = camera.fx * out->xn * radial + camera.cx;
   const Lanes v = camera.fy * out->yn * radial + camera.cy;
   const float max_u = static_cast<float>(image.width_px - 3);

@@ -34,7 +34,7 @@ RowSpan span_of_row(int v, const ImageView& image, const LevelCamera& camera,
   return {static_cast<int>(low), static_cast<int>(high)};
 }
 
-/// Fixed-point inverse of the radial term, good to 1e-6 for |k1| < 0.05.
+/// Fixed-point inverse of the radial terms, good to 1e-6 where they move a pixel by less than 5 %.
 void undistort(const LevelCamera& camera, RoadPixels* pixels) {
   for (int i = 0; i < pixels->size; ++i) {
     const float xd = pixels->x[i];
@@ -43,7 +43,8 @@ void undistort(const LevelCamera& camera, RoadPixels* pixels) {
     for (int k = 0; k < 4; ++k) {
       const float x = xd * s;
       const float y = yd * s;
-      s = 1.0F / (1.0F + camera.k1 * (x * x + y * y));
+      const float r2 = x * x + y * y;
+      s = 1.0F / (1.0F + r2 * (camera.k1 + r2 * camera.k2));
     }
     pixels->x[i] = xd * s;
     pixels->y[i] = yd * s;
@@ -55,10 +56,12 @@ void undistort(const LevelCamera& camera, RoadPixels* pixels) {
 LevelCamera camera_of_level(const CameraModel& camera, int level) {
   const double scale = 1.0 / static_cast<double>(1 << level);
   // Pixel centres move with 2x2 averages: u_l = (u_0 + 0.5) / 2^l - 0.5.
-  return {static_cast<float>(camera.fx_px * scale), static_cast<float>(camera.fy_px * scale),
+  return {static_cast<float>(camera.fx_px * scale),
+          static_cast<float>(camera.fy_px * scale),
           static_cast<float>((camera.cx_px + 0.5) * scale - 0.5),
           static_cast<float>((camera.cy_px + 0.5) * scale - 0.5),
-          static_cast<float>(camera.residual_k1)};
+          static_cast<float>(camera.residual_k1),
+          static_cast<float>(camera.residual_k2)};
 }
 
 void select_road_pixels(const ImageView& image, const LevelCamera& camera, const RoadShape& shape,

@@ -22,6 +22,7 @@ struct LevelCamera {
   float cx = 0.0F;
   float cy = 0.0F;
   float k1 = 0.0F;
+  float k2 = 0.0F;
 };
 
 [[nodiscard]] LevelCamera camera_of_level(const CameraModel& camera, int level);

@@ -140,6 +140,7 @@ camera_calibration_t to_wire(const CameraModel& camera, std::int64_t utime) {
   message.cx_px = camera.cx_px;
   message.cy_px = camera.cy_px;
   message.residual_k1 = camera.residual_k1;
+  message.residual_k2 = camera.residual_k2;
   message.camera_height_m = camera.camera_height_m;
   return message;
 }
@@ -159,17 +160,20 @@ const char* from_wire(const camera_calibration_t& message, CameraModel* camera) 
     return "calibration: principal point is outside the image";
   }
   if (!inside(message.residual_k1, -0.5, 0.5)) return "calibration: k1 is outside [-0.5, 0.5]";
+  if (!inside(message.residual_k2, -0.5, 0.5)) return "calibration: k2 is outside [-0.5, 0.5]";
   if (message.camera_height_m != 0.0 && !inside(message.camera_height_m, 0.3, 4.0))
     return "calibration: camera height is neither 0 nor in [0.3, 4]";
-  *camera = {message.width, message.height, message.fx_px,       message.fy_px,
-             message.cx_px, message.cy_px,  message.residual_k1, message.camera_height_m};
+  *camera = {message.width,       message.height,      message.fx_px,
+             message.fy_px,       message.cx_px,       message.cy_px,
+             message.residual_k1, message.residual_k2, message.camera_height_m};
   return nullptr;
 }
 
 bool same_camera(const CameraModel& a, const CameraModel& b) {
   return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px &&
          a.fy_px == b.fy_px && a.cx_px == b.cx_px && a.cy_px == b.cy_px &&
-         a.residual_k1 == b.residual_k1 && a.camera_height_m == b.camera_height_m;
+         a.residual_k1 == b.residual_k1 && a.residual_k2 == b.residual_k2 &&
+         a.camera_height_m == b.camera_height_m;
 }
 
 struct ImageDecoder::Storage {

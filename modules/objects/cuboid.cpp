@@ -85,10 +85,8 @@ class View {
     const Eigen::Vector2d xy = p.head<2>() / p.z();
     Eigen::Matrix<double, 2, 3> J_xy;
     J_xy << 1.0, 0.0, -xy.x(), 0.0, 1.0, -xy.y();
-    const double k1 = camera_.residual_k1;
-    const Eigen::Matrix2d distortion = (1.0 + k1 * xy.squaredNorm()) * Eigen::Matrix2d::Identity() +
-                                       2.0 * k1 * xy * xy.transpose();
-    return Eigen::Vector2d(camera_.fx_px, camera_.fy_px).asDiagonal() * distortion * J_xy / p.z();
+    return Eigen::Vector2d(camera_.fx_px, camera_.fy_px).asDiagonal() *
+           camera_.distortion_jacobian(xy) * J_xy / p.z();
   }
 
   const CameraModel& camera_;

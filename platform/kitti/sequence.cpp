@@ -33,10 +33,18 @@ Layout find_layout(const SequenceOptions& options) {
                    odometry.filename().string() + " nor " + raw.filename().string() + "/data");
 }
 
+/// The pair belongs together: whoever states one of them means 0 by leaving the other out.
+void set_residual(std::optional<double> k1, std::optional<double> k2, CameraModel* camera) {
+  const bool stated = k1 || k2;
+  camera->residual_k1 = stated ? k1.value_or(0.0) : kKittiResidualK1;
+  camera->residual_k2 = stated ? k2.value_or(0.0) : kKittiResidualK2;
+}
+
 RectifiedCamera read_odometry_camera(const SequenceOptions& options) {
   const CalibrationFile file(options.folder / "calib.txt");
   RectifiedCamera camera = read_projection(file, format("P%d", options.camera));
-  camera.model.residual_k1 = file.optional_number("residual_k1").value_or(kKittiResidualK1);
+  set_residual(file.optional_number("residual_k1"), file.optional_number("residual_k2"),
+               &camera.model);
   camera.model.camera_height_m = file.optional_number("camera_height_m").value_or(0.0);
   return camera;
 }
@@ -52,7 +60,7 @@ RectifiedCamera read_raw_camera(const SequenceOptions& options, const RawCalibra
   const std::vector<double> size_px = file.numbers("S" + suffix, 2);
   camera.model.width_px = static_cast<int>(size_px[0]);
   camera.model.height_px = static_cast<int>(size_px[1]);
-  camera.model.residual_k1 = kKittiResidualK1;
+  set_residual({}, {}, &camera.model);
   return camera;
 }
 
@@ -170,7 +178,9 @@ Sequence read_sequence(const SequenceOptions& options) {
   Sequence sequence;
   sequence.camera = camera.model;
   sequence.colour_allowed = options.camera >= 2;
-  if (options.residual_k1) sequence.camera.residual_k1 = *options.residual_k1;
+  if (options.residual_k1 || options.residual_k2) {
+    set_residual(options.residual_k1, options.residual_k2, &sequence.camera);
+  }
   if (options.camera_height_m) sequence.camera.camera_height_m = *options.camera_height_m;
   for (const NumberedImage& image : images)
     sequence.frames.push_back({image.number, image.path, 0, {}, {}});

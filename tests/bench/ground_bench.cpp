@@ -22,7 +22,8 @@ struct Footage {
     camera.fx_px = camera.fy_px = 721.5;
     camera.cx_px = 609.6;
     camera.cy_px = 172.9;
-    camera.residual_k1 = 0.008;
+    camera.residual_k1 = 0.0256;
+    camera.residual_k2 = -0.0076;
     camera.camera_height_m = test::kRoadHeight;
     const std::vector<Se3> poses = test::Drive{}.poses(kNumFrames);
     vo.resize(kNumFrames);

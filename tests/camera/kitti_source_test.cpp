@@ -151,10 +151,12 @@ TEST(KittiSource, FillsTheCalibrationAndKeepsTheRig) {
   EXPECT_EQ(config.cy_px, 31.75);
   EXPECT_EQ(config.camera_height_m, 1.65);
   EXPECT_EQ(config.residual_k1, kKittiResidualK1);
+  EXPECT_EQ(config.residual_k2, kKittiResidualK2);
   CameraConfig own;
   own.residual_k1 = -0.002;
   KittiSource(folder.path(), 0).complete(&own);
   EXPECT_EQ(own.residual_k1, -0.002);
+  EXPECT_EQ(own.residual_k2, 0.0);
 }
 
 TEST(KittiSource, RefusesAConfigurationThatContradictsTheFolder) {

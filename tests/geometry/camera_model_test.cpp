@@ -29,9 +29,35 @@ TEST(CameraModel, PositiveRadialTermMovesPointsOutwards) {
   EXPECT_GT(bent.y(), plain.y());
 }
 
+TEST(CameraModel, SecondRadialTermGrowsWithTheFourthPower) {
+  CameraModel camera = kitti_like(0.0);
+  camera.residual_k2 = 0.01;
+  const auto shift = [&camera](double x) {
+    return (camera.from_normalized({x, 0.0}).x() - camera.cx_px) / camera.fx_px / x - 1.0;
+  };
+  EXPECT_NEAR(shift(0.4), 0.01 * 0.4 * 0.4 * 0.4 * 0.4, 1e-12);
+  EXPECT_NEAR(shift(0.8) / shift(0.4), 16.0, 1e-9);
+}
+
+TEST(CameraModel, DistortionJacobianIsTheSlopeOfTheProjection) {
+  CameraModel camera = kitti_like(0.0256);
+  camera.residual_k2 = -0.0076;
+  const Eigen::Vector2d xy(-0.6, 0.2);
+  const Eigen::Matrix2d J = camera.distortion_jacobian(xy);
+  const double step = 1e-6;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d d = step * Eigen::Vector2d::Unit(i);
+    const Eigen::Vector2d slope =
+        (camera.from_normalized(xy + d) - camera.from_normalized(xy - d)) / (2.0 * step);
+    EXPECT_NEAR(slope.x(), camera.fx_px * J(0, i), 1e-5);
+    EXPECT_NEAR(slope.y(), camera.fy_px * J(1, i), 1e-5);
+  }
+}
+
 TEST(CameraModel, UnprojectInvertsProjectOverTheWholeImage) {
-  for (const double k1 : {-0.05, 0.0, 0.008, 0.05}) {
-    const CameraModel camera = kitti_like(k1);
+  for (const double k1 : {-0.05, 0.0, 0.008, 0.0256, 0.05}) {
+    CameraModel camera = kitti_like(k1);
+    camera.residual_k2 = -0.3 * k1;
     for (double u = 0.0; u < camera.width_px; u += 41.0) {
       for (double v = 0.0; v < camera.height_px; v += 34.0) {
         const Eigen::Vector3d ray = camera.unproject({u, v});

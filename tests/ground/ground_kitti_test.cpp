@@ -33,7 +33,8 @@ CameraModel read_camera(const std::filesystem::path& folder) {
   camera.cx_px = p[2];
   camera.fy_px = p[5];
   camera.cy_px = p[6];
-  camera.residual_k1 = 0.008;
+  camera.residual_k1 = 0.0256;
+  camera.residual_k2 = -0.0076;
   return camera;
 }
 

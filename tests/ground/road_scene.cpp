@@ -75,6 +75,7 @@ CameraModel scene_camera() {
   camera.cx_px = 321.3;
   camera.cy_px = 88.7;
   camera.residual_k1 = 0.01;
+  camera.residual_k2 = -0.004;
   camera.camera_height_m = kRoadHeight;
   return camera;
 }

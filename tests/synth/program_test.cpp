@@ -73,7 +73,8 @@ TEST(SynthProgram, FilesDoNotDependOnTheNumberOfThreads) {
 
 TEST(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   const fs::path out = fresh("layout");
-  ASSERT_EQ(run("--out " + out.string() + kSmall + "--residual-k1 0.01").code, 0);
+  ASSERT_EQ(run("--out " + out.string() + kSmall + "--residual-k1 0.01 --residual-k2 -0.004").code,
+            0);
   for (const char* name : {"times.txt", "poses.txt", "gt_ground_plane.txt", "vehicle.txt"})
     EXPECT_EQ(lines(out / name, false), 5) << name;
   const cv::Mat image = cv::imread((out / "image_0/000004.png").string(), cv::IMREAD_UNCHANGED);
@@ -81,7 +82,8 @@ TEST(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   EXPECT_EQ(image.cols, 310);
   EXPECT_EQ(image.rows, 94);
   const std::string calibration = content(out / "calib.txt");
-  for (const char* row : {"P0: ", "P1: ", "P2: ", "P3: ", "residual_k1: 0.01\n"})
+  for (const char* row :
+       {"P0: ", "P1: ", "P2: ", "P3: ", "residual_k1: 0.01\n", "residual_k2: -0.004\n"})
     EXPECT_NE(calibration.find(row), std::string::npos) << row;
   std::ifstream poses(out / "poses.txt");
   for (const double expected : {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0}) {

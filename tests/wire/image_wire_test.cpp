@@ -234,6 +234,7 @@ TEST(CalibrationWire, RefusesWhatIsNoCamera) {
   EXPECT_TRUE(refused([](CameraModel* c) { c->cx_px = 1242.0; }));
   EXPECT_TRUE(refused([=](CameraModel* c) { c->cy_px = nan; }));
   EXPECT_TRUE(refused([](CameraModel* c) { c->residual_k1 = 2.0; }));
+  EXPECT_TRUE(refused([](CameraModel* c) { c->residual_k2 = -2.0; }));
   EXPECT_TRUE(refused([](CameraModel* c) { c->camera_height_m = 145.0; }));
   EXPECT_TRUE(refused([=](CameraModel* c) { c->camera_height_m = nan; }));
 }

@@ -39,8 +39,12 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
                   "true poses [SEQ_DIR/poses.txt, or a raw drive's oxts]");
   app->add_option("--planes", sequence->planes,
                   "true ground planes [SEQ_DIR/gt_ground_plane*.txt]");
-  app->add_option("--residual-k1", sequence->residual_k1,
-                  "radial term left in the rectified images [calib.txt's residual_k1, else 0.008]")
+  app->add_option(
+         "--residual-k1", sequence->residual_k1,
+         "radial term of r^2 left in the rectified images [calib.txt's residual_k1, else 0.0256]")
+      ->check(CLI::Range(-0.2, 0.2));
+  app->add_option("--residual-k2", sequence->residual_k2,
+                  "the same, of r^4 [calib.txt's residual_k2, else -0.0076; 0 beside a stated k1]")
       ->check(CLI::Range(-0.2, 0.2));
   app->add_option(
          "--camera-height", sequence->camera_height_m,

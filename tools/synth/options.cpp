@@ -111,7 +111,10 @@ void declare_camera(CLI::App& app, Options& o) {
 void declare_sensor(CLI::App& app, Options& o) {
   SynthConfig& c = o.config;
   app.add_option("--residual-k1", c.render.camera.residual_k1,
-                 "radial distortion left in the images")
+                 "radial distortion left in the images, of r^2")
+      ->check(CLI::Range(-0.1, 0.1))
+      ->capture_default_str();
+  app.add_option("--residual-k2", c.render.camera.residual_k2, "the same, of r^4")
       ->check(CLI::Range(-0.1, 0.1))
       ->capture_default_str();
   app.add_option("--exposure", c.render.exposure_s, "exposure time, s: motion blur")

@@ -135,7 +135,8 @@ void FrameRenderer::fill_tiles(double time_s) {
     T_cam_map[k] = world_.drive.T_map_cam(time_s + times[k]).inverse();
   const double corner2 = 0.25 * (std::pow(camera.width_px / camera.fx_px, 2) +
                                  std::pow(camera.height_px / camera.fy_px, 2));
-  const double margin = 2.0 + std::abs(camera.residual_k1) * corner2 * 0.7 * camera.width_px;
+  const double bent = std::abs(camera.residual_k1) + std::abs(camera.residual_k2) * corner2;
+  const double margin = 2.0 + bent * corner2 * 0.7 * camera.width_px;
   for (std::size_t i = 0; i < solids_.size(); ++i) {
     Vector2d low(1e9, 1e9);
     Vector2d high(-1e9, -1e9);
@@ -227,7 +228,7 @@ FrameRenderer::Sample FrameRenderer::shade_ground(const Ray& ray, const GroundHi
 
 Vector3d FrameRenderer::direction(double u, double v) const {
   const CameraModel& camera = config_.camera;
-  if (camera.residual_k1 != 0.0) return camera.unproject({u, v});
+  if (camera.residual_k1 != 0.0 || camera.residual_k2 != 0.0) return camera.unproject({u, v});
   return {(u - camera.cx_px) / camera.fx_px, (v - camera.cy_px) / camera.fy_px, 1.0};
 }
 

@@ -63,6 +63,7 @@ void write_calibration(const fs::path& folder, const SynthConfig& config) {
   file.line(projection_row("P2", camera, 0.0));
   file.line(projection_row("P3", camera, 0.54));
   file.line(format("residual_k1: %.9g", camera.residual_k1));
+  file.line(format("residual_k2: %.9g", camera.residual_k2));
   const double stated_m =
       config.stated_height_m > 0.0 ? config.stated_height_m : config.drive.mount.height_m;
   file.line(format("camera_height_m: %.9g", stated_m));

@@ -18,7 +18,7 @@ inline Lanes splat(float v) { return Lanes{} + v; }
 /// Rows of the homography and lens of the older image, in float.
 struct Warp {
   float g[3][3];
-  float fx, fy, cx, cy, k1;
+  float fx, fy, cx, cy, k1, k2;
 };
 
 Warp make_warp(const CameraModel& camera, const Se3& T_old_cam, const Eigen::Vector3d& q) {
@@ -32,6 +32,7 @@ Warp make_warp(const CameraModel& camera, const Se3& T_old_cam, const Eigen::Vec
   w.cx = static_cast<float>(camera.cx_px);
   w.cy = static_cast<float>(camera.cy_px);
   w.k1 = static_cast<float>(camera.residual_k1);
+  w.k2 = static_cast<float>(camera.residual_k2);
   return w;
 }
 
@@ -47,7 +48,8 @@ inline void land(const Warp& w, const ImageView& image, const Lanes& x, const La
   const Lanes inverse = 1.0F / depth;
   const Lanes xn = (w.g[0][0] * x + w.g[0][1] * y + w.g[0][2]) * inverse;
   const Lanes yn = (w.g[1][0] * x + w.g[1][1] * y + w.g[1][2]) * inverse;
-  const Lanes radial = 1.0F + w.k1 * (xn * xn + yn * yn);
+  const Lanes r2 = xn * xn + yn * yn;
+  const Lanes radial = 1.0F + r2 * (w.k1 + r2 * w.k2);
   const Lanes u = w.fx * xn * radial + w.cx;
   const Lanes v = w.fy * yn * radial + w.cy;
   const auto max_u = static_cast<float>(image.width_px - 1);
