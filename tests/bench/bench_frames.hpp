@@ -59,12 +59,19 @@ inline Frames load_frames(int max_frames = kMaxFrames) {
     double p[12];
     calib >> key;
     for (double& x : p) calib >> x;
-    frames.camera = {
-        frames.images[0].cols, frames.images[0].rows, p[0], p[5], p[2], p[6], 0.008, 1.65};
+    frames.camera = {frames.images[0].cols,
+                     frames.images[0].rows,
+                     p[0],
+                     p[5],
+                     p[2],
+                     p[6],
+                     0.0256,
+                     -0.0076,
+                     1.65};
     frames.name = "KITTI drive0039";
     return frames;
   }
-  frames.camera = {1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 1.65};
+  frames.camera = {1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 0.0, 1.65};
   frames.name = "rendered street";
   const test::Scene scene(frames.camera);
   unsigned seed = 0;

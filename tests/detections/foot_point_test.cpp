@@ -13,7 +13,7 @@ namespace {
 using Vector1d = Eigen::Matrix<double, 1, 1>;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-CameraModel camera(double k1) { return {1242, 375, 721.5, 719.0, 609.6, 172.9, k1, 1.65}; }
+CameraModel camera(double k1) { return {1242, 375, 721.5, 719.0, 609.6, 172.9, k1, 0.0, 1.65}; }
 
 RoadPlane plane(double pitch_rad, double roll_rad, double height_m) {
   RoadPlane result;
@@ -98,7 +98,7 @@ TEST(FootPoint, FindsThePointThatWasProjected) {
 
 TEST(FootPoint, IsTheWorkedExampleOfALevelCamera) {
   // 72.15 px below the horizon at f = 721.5: ten camera heights ahead, and 0.5 m to the right.
-  const CameraModel simple{1242, 375, 721.5, 721.5, 600.0, 170.0, 0.0, 1.5};
+  const CameraModel simple{1242, 375, 721.5, 721.5, 600.0, 170.0, 0.0, 0.0, 1.5};
   const auto foot =
       back_project_foot(simple, plane(0.0, 0.0, 1.5), {624.05, 242.15}, Eigen::Matrix2d::Zero());
   ASSERT_TRUE(foot.has_value());

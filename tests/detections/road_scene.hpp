@@ -17,7 +17,7 @@
 namespace plumb::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;
-inline const CameraModel kSceneCamera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 1.65};
+inline const CameraModel kSceneCamera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 0.0, 1.65};
 
 struct SceneObject {
   std::int32_t track_id = 0;

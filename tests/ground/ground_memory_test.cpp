@@ -40,7 +40,7 @@ TEST(GroundMemory, NoFrameAllocates) {
 
 TEST(GroundMemory, OwnsLessThan16MegabytesAtFullSize) {
   if (!test::kCountsMallocs) GTEST_SKIP() << "the sanitizer owns malloc";
-  const CameraModel camera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 1.65};
+  const CameraModel camera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 0.0, 1.65};
   const std::size_t before = test::heap_bytes();
   const GroundEstimator estimator(GroundConfig{}, camera);
   const std::size_t owned = test::heap_bytes() - before;

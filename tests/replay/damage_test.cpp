@@ -14,7 +14,7 @@ namespace {
 constexpr int kNumImages = 6;
 
 std::string small_log(const test::TempFolder& folder) {
-  CameraModel camera{96, 72, 80.0, 80.0, 48.0, 36.0, 0.0, 1.65};
+  CameraModel camera{96, 72, 80.0, 80.0, 48.0, 36.0, 0.0, 0.0, 1.65};
   std::vector<test::StoredEvent> events = {test::stored(test::kStreetStart_us, kCameraCalibration,
                                                         to_wire(camera, test::kStreetStart_us))};
   for (int i = 0; i < kNumImages; ++i) {

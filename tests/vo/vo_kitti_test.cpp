@@ -35,7 +35,7 @@ Sequence load(const std::filesystem::path& folder) {
   double p[12];
   calib >> name;
   for (double& x : p) calib >> x;
-  s.camera = {s.images[0].cols, s.images[0].rows, p[0], p[5], p[2], p[6], 0.008, 1.65};
+  s.camera = {s.images[0].cols, s.images[0].rows, p[0], p[5], p[2], p[6], 0.0256, -0.0076, 1.65};
   std::ifstream poses(folder / "poses.txt");
   while (poses >> p[0]) {
     for (int i = 1; i < 12; ++i) poses >> p[i];

@@ -40,7 +40,7 @@ TEST(Memory, NothingIsAllocatedOverADriveWithEveryMishap) {
 
 TEST(Memory, OwnsLessThan16MegabytesAtFullSize) {
   if (!test::kCountsMallocs) GTEST_SKIP() << "the sanitizer owns malloc";
-  const CameraModel camera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 1.65};
+  const CameraModel camera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 0.0, 1.65};
   const std::size_t before = test::heap_bytes();
   const VisualOdometry odometry(VoConfig{}, camera, 1);
   const std::size_t owned = test::heap_bytes() - before;

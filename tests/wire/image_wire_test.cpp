@@ -207,7 +207,7 @@ TEST(ImageWire, SurvivesHostileLengthsAndNoise) {
 }
 
 TEST(CalibrationWire, RoundTrips) {
-  const CameraModel camera{1242, 375, 721.5, 720.9, 609.6, 172.9, -0.002, 1.65};
+  const CameraModel camera{1242, 375, 721.5, 720.9, 609.6, 172.9, -0.002, 0.0004, 1.65};
   CameraModel back;
   EXPECT_EQ(nullptr, from_wire(to_wire(camera, 5), &back));
   EXPECT_TRUE(same_camera(camera, back));
@@ -217,7 +217,7 @@ TEST(CalibrationWire, RoundTrips) {
 }
 
 TEST(CalibrationWire, RefusesWhatIsNoCamera) {
-  const CameraModel camera{1242, 375, 721.5, 720.9, 609.6, 172.9, 0.0, 1.65};
+  const CameraModel camera{1242, 375, 721.5, 720.9, 609.6, 172.9, 0.0, 0.0, 1.65};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [&](const std::function<void(CameraModel*)>& change) {
     CameraModel bad = camera;

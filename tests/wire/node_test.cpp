@@ -14,7 +14,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 constexpr int kWidth = 320;
 constexpr int kHeight = 128;
-const CameraModel kModel{kWidth, kHeight, 250.0, 250.0, 160.0, 64.0, 0.0, 1.65};
+const CameraModel kModel{kWidth, kHeight, 250.0, 250.0, 160.0, 64.0, 0.0, 0.0, 1.65};
 
 Bytes image_bytes(std::int64_t seq, int width_px = kWidth) {
   Bytes pixels(static_cast<std::size_t>(width_px * kHeight));

@@ -101,7 +101,7 @@ TrackingCamera read_tracking_camera(const std::filesystem::path& path) {
       P(i / 4, i % 4) = number(words, static_cast<std::size_t>(i) + 1, path.string() + ": P2: ");
     }
     TrackingCamera camera;
-    camera.model = {1242, 375, P(0, 0), P(1, 1), P(0, 2), P(1, 2), 0.0, 0.0};
+    camera.model = {1242, 375, P(0, 0), P(1, 1), P(0, 2), P(1, 2), 0.0, 0.0, 0.0};
     const double t_z = P(2, 3);
     camera.t_cam_cam0 = {(P(0, 3) - P(0, 2) * t_z) / P(0, 0), (P(1, 3) - P(1, 2) * t_z) / P(1, 1),
                          t_z};
