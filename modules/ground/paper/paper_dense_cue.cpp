@@ -57,9 +57,10 @@ PaperDenseObservation PaperDenseCue::measure(const ImageView& old_image, const S
                     (found.x - expected).head<2>().cwiseAbs().maxCoeff() < kTiltRange;
   if (!std::isfinite(found.value) || !near) return out;
   out.sad = region_.sad(old_image, T_old_cam, q_of(out.z));
+  out.width.setConstant(kInfinity);
   for (const PlaneComponent along : {kN1, kN3, kH}) {
     const Bell bell = fit_bell(slice(old_image, T_old_cam, out.z, along));
-    out.width(along) = bell.ok ? bell.width : kInfinity;
+    if (bell.ok) out.width(along) = bell.width;
   }
   out.ok = true;
   return out;

@@ -120,7 +120,7 @@ double RoadRegion::sad(const ImageView& old_image, const Se3& T_old_cam,
     load(x_.data() + i, &x);
     load(y_.data() + i, &y);
     load(grey_.data() + i, &grey);
-    Landing at;
+    Landing at{};
     land(warp, old_image, x, y, &at);
     sample_row(old_image, at, 0, &upper);
     sample_row(old_image, at, 1, &lower);
