@@ -17,6 +17,13 @@ struct CueContext {
   double step_ratio = 1.0;  ///< motion since the previous image, in camera heights
 };
 
+/// A road that bends up or down lies, where it is seen, at another height than under the camera. The angle between it
+/// and the direction of travel tells how much: ln(height seen) = ln(height) + slope * (n . direction) + noise.
+struct RoadBend {
+  double slope = 0.0;
+  double var = 0.0;  ///< of the noise; already as many times as images share it
+};
+
 class CueCovariance {
  public:
   virtual ~CueCovariance() = default;
@@ -33,6 +40,8 @@ class CueCovariance {
   [[nodiscard]] virtual double dense_repetition(const CueContext& context) const = 0;
   [[nodiscard]] virtual double points_repetition(const CueContext& context) const = 0;
   [[nodiscard]] virtual double travel_repetition(const CueContext& context) const = 0;
+  /// How the road's own shape enters a height that is seen some way ahead.
+  [[nodiscard]] virtual RoadBend road_bend(const CueContext& context) const = 0;
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
   [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
   [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
@@ -50,6 +59,7 @@ class FloorCovariance final : public CueCovariance {
   [[nodiscard]] double dense_repetition(const CueContext& context) const override;
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
   [[nodiscard]] double travel_repetition(const CueContext& context) const override;
+  [[nodiscard]] RoadBend road_bend(const CueContext& /*context*/) const override { return {}; }
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
 };

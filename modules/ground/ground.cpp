@@ -54,9 +54,9 @@ CueObservation absent_cue() {
 
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
-  // The built-in numbers are not trained yet.
-  const bool untrained = config.model_file.empty();
-  if (config.covariance == "fixed" || untrained) return std::make_unique<FloorCovariance>();
+  // Trained before the second radial term and the present noise in turns: taken only when its file is named.
+  const bool unnamed = config.model_file.empty();
+  if (config.covariance == "fixed" || unnamed) return std::make_unique<FloorCovariance>();
   return std::make_unique<LearnedCovariance>(model);
 }
 
@@ -69,7 +69,7 @@ struct GroundEstimator::Impl {
         ring(camera),
         dense_cue(ring.camera(), ring.num_levels()),
         covariance(make_covariance(config_in, model)) {
-    if (config.covariance != "fixed") bias = model.bias;
+    if (config.covariance != "fixed" && !config.model_file.empty()) bias = model.bias;
   }
 
   void take_image(const GroundInput& input);
@@ -292,15 +292,17 @@ void GroundEstimator::Impl::fuse() {
   const CueContext& context = frame.context;
   filter.observe_travel(frame.travel.direction, covariance->travel_repetition(context) *
                                                     covariance->travel(frame.travel, context));
-  if (frame.dense_status == CueStatus::kUsed &&
-      !filter.observe_plane(
-          state_of_plane(frame.dense.q),
-          covariance->dense_repetition(context) * covariance->dense(frame.dense, context))) {
-    frame.dense_status = CueStatus::kGated;
+  const RoadBend road = covariance->road_bend(context);
+  if (frame.dense_status == CueStatus::kUsed) {
+    const PlaneUnder seen = plane_under(frame, *covariance, road);
+    if (!filter.observe_plane(seen.state, seen.cov)) frame.dense_status = CueStatus::kGated;
   }
   if (frame.points_status == CueStatus::kUsed &&
-      !filter.observe_point(frame.points.centre, covariance->points_repetition(context) *
-                                                     covariance->points(frame.points, context))) {
+      !filter.observe_point(
+          frame.points.centre,
+          covariance->points_repetition(context) * covariance->points(frame.points, context) +
+              road.var,
+          road.slope * frame.travel.direction)) {
     frame.points_status = CueStatus::kGated;
   }
   if (starts && frame.height_refused()) filter.forget();  // not the road: a truck's back, a mirror

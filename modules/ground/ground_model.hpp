@@ -79,6 +79,10 @@ struct GroundModel {
   double dense_memory_ratio = 0.0;
   double points_memory_ratio = 0.0;
   double travel_memory_ratio = 0.0;
+  /// ln(height of the road ahead / height) = slope * (n . direction of travel) + noise.
+  double road_bend_slope = 0.0;
+  double road_ln_height_std = 0.0;
+  double road_memory_ratio = 0.0;
   PlaneBias bias;
   PaperModel paper;
 

@@ -80,8 +80,8 @@ void write_travel(const GroundSight& sight, const CueReference& reference, Sampl
   sample->travel_chord_ratio = travel.chord_length / std::exp(reference.ln_height);
   sample->travel_num_frames = travel.num_chord_frames;
   sample->travel_hand_var = FloorCovariance().travel(travel, sight.context);
-  if (reference.plane != nullptr)
-    sample->travel_err = reference.plane->normal_cam.dot(travel.direction);
+  sample->travel_ref = reference.normal_cam.dot(travel.direction);
+  if (reference.plane != nullptr) sample->travel_err = sample->travel_ref;
 }
 
 void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,

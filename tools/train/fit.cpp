@@ -15,9 +15,9 @@ constexpr double kMostHeldOutNees = 10.0;  // one drive that went wrong says no 
 
 std::vector<std::vector<TargetRow>> rows_per_drive(Target target,
                                                    const std::vector<DriveSamples>& drives,
-                                                   const LogVariance& dense_height) {
+                                                   const GroundModel& model) {
   std::vector<std::vector<TargetRow>> rows;
-  for (const DriveSamples& drive : drives) rows.push_back(rows_of(target, drive, dense_height));
+  for (const DriveSamples& drive : drives) rows.push_back(rows_of(target, drive, model));
   return rows;
 }
 
@@ -101,8 +101,9 @@ double memory_of_repetition(double repetition, double step_ratio) {
 
 GroundModel fit_cues(const std::vector<DriveSamples>& drives, const GroundModel& start) {
   GroundModel model = start;
+  fit_road(drives, &model);
   for (const Target target : kTargets) {
-    const auto rows = rows_per_drive(target, drives, model.dense_height);
+    const auto rows = rows_per_drive(target, drives, model);
     const std::vector<VarianceRow> all = all_rows(rows);
     if (all.size() < kFewestRows) continue;
     LogVariance& cue = model_of(target, &model);
@@ -123,7 +124,7 @@ std::vector<HeldOutScore> leave_one_out(const std::vector<DriveSamples>& drives,
     const GroundModel model = fit_cues(others, start);
     for (const Target target : kTargets) {
       ScoreSum learned, hand;
-      for (const TargetRow& row : rows_of(target, drives[held], model.dense_height)) {
+      for (const TargetRow& row : rows_of(target, drives[held], model)) {
         const double extra = row.row.extra_var;
         learned.add(row.row.error, model_of(target, model).of(row.row.features) + extra);
         hand.add(row.row.error, row.hand_var + extra);

@@ -14,6 +14,10 @@ namespace plumb {
 [[nodiscard]] GroundModel fit_cues(const std::vector<DriveSamples>& drives,
                                    const GroundModel& start);
 
+/// How the height of the road ahead follows from its angle to the direction of travel; out of true planes, each drive
+/// counts the same. Without any the model stays.
+void fit_road(const std::vector<DriveSamples>& drives, GroundModel* model);
+
 /// Deviations of a whole drive, so that what was reported gets a mean square of one over the drives: each drive counts
 /// the same. Samples of another algorithm than "learned" leave them as they are.
 void fit_bias(const std::vector<DriveSamples>& drives, GroundModel* model);

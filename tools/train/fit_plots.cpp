@@ -17,7 +17,7 @@ Plot calibration_plot(Target target, const std::vector<DriveSamples>& drives,
                       const GroundModel& model) {
   std::vector<Belief> beliefs;
   for (const DriveSamples& drive : drives) {
-    for (const TargetRow& row : rows_of(target, drive, model.dense_height)) {
+    for (const TargetRow& row : rows_of(target, drive, model)) {
       const double var = model_of(target, model).of(row.row.features) + row.row.extra_var;
       beliefs.push_back({std::sqrt(var), row.row.error});
     }

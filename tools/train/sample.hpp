@@ -24,6 +24,7 @@ struct Sample {
       kNone;                 ///< 1-sigma of the true ln scale: jitter of the truth over its chord
   double has_plane = kNone;  ///< 1: height and normal are measured; 0: nominal height, no normal
   double true_height_m = kNone;
+  double nominal_height_m = kNone;
   double true_n1 = kNone;
   double true_n3 = kNone;
   // Context.
@@ -66,6 +67,8 @@ struct Sample {
   double travel_chord_ratio = kNone;  ///< chord in camera heights
   double travel_num_frames = kNone;
   double travel_err = kNone;
+  double travel_ref =
+      kNone;
   double travel_hand_var = kNone;
   // What was reported, with the deviations of that run.
   double out_scale_err = kNone;

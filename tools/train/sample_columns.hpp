@@ -16,6 +16,7 @@ void Sample::visit(S& s, Field&& field) {
   field("truth_ln_std", s.truth_ln_std);
   field("has_plane", s.has_plane);
   field("true_height_m", s.true_height_m);
+  field("nominal_height_m", s.nominal_height_m);
   field("true_n1", s.true_n1);
   field("true_n3", s.true_n3);
   field("turn_ratio", s.turn_ratio);
@@ -54,6 +55,7 @@ void Sample::visit(S& s, Field&& field) {
   field("travel_chord_ratio", s.travel_chord_ratio);
   field("travel_num_frames", s.travel_num_frames);
   field("travel_err", s.travel_err);
+  field("travel_ref", s.travel_ref);
   field("travel_hand_var", s.travel_hand_var);
   field("out_scale_err", s.out_scale_err);
   field("out_scale_var", s.out_scale_var);

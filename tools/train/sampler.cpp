@@ -65,6 +65,7 @@ void Sampler::add(const SampledFrame& frame) {
   const TruePlane* plane = truth_->plane(frame.vo->seq);
   sample.has_plane = plane != nullptr ? 1.0 : 0.0;
   sample.true_height_m = plane != nullptr ? plane->height_m : nominal_height_m_;
+  sample.nominal_height_m = nominal_height_m_;
   if (plane != nullptr) {
     sample.true_n1 = plane->normal_cam.x();
     sample.true_n3 = plane->normal_cam.z();

@@ -5,29 +5,33 @@
 namespace plumb {
 namespace {
 
-// The camera's height over the road under its wheels is not the nominal one: load, tyres, crown.
-constexpr double kNominalLnStd = 0.01;
 constexpr double kLeastSlope = 2.0;  // of ln h against n3, for a height's error to tell a tilt
 
 bool finite(double a, double b, double c) {
   return std::isfinite(a) && std::isfinite(b) && std::isfinite(c);
 }
 
-double reference_var(const Sample& s, double normal_part) {
-  const double nominal = s.has_plane > 0.5 ? 0.0 : kNominalLnStd;
-  return s.truth_ln_std * s.truth_ln_std + nominal * nominal + normal_part;
+/// Variance of the true ln h that a cue is held against.
+double reference_var(const Sample& s, const GroundModel& model, double normal_part) {
+  const double road = s.has_plane > 0.5 ? 0.0 : model.road_ln_height_std;
+  return s.truth_ln_std * s.truth_ln_std + road * road + normal_part;
+}
+
+/// Without a true plane, the height ahead is the nominal one and what the road's bend adds.
+double bend_of(const Sample& s, const GroundModel& model) {
+  return s.has_plane > 0.5 ? 0.0 : model.road_bend_slope * s.travel_ref;
 }
 
 CueFeatures features(const Sample& s, double pixel_var) {
   return dense_features(pixel_var, s.dense_ncc, s.turn_ratio, s.step_ratio);
 }
 
-bool dense_row(Target target, const Sample& s, const LogVariance& dense_height, TargetRow* out) {
+bool dense_row(Target target, const Sample& s, const GroundModel& model, TargetRow* out) {
   if (!(s.dense_used > 0.5)) return false;
   VarianceRow& row = out->row;
   if (target == Target::kDenseHeight) {
-    row = {s.dense_err_given, reference_var(s, s.dense_given_ref_var), 1.0,
-           features(s, s.dense_pixel_var_given)};
+    row = {s.dense_err_given - bend_of(s, model), reference_var(s, model, s.dense_given_ref_var),
+           1.0, features(s, s.dense_pixel_var_given)};
     out->hand_var = s.dense_hand_var_given;
   } else if (target == Target::kDenseN1) {
     row = {s.dense_err_n1, 0.0, 1.0, features(s, s.dense_pixel_var_n1)};
@@ -37,19 +41,20 @@ bool dense_row(Target target, const Sample& s, const LogVariance& dense_height, 
     out->hand_var = s.dense_hand_var_n3;
   } else {
     if (!(std::abs(s.dense_slope_n3) > kLeastSlope)) return false;
-    const double given = dense_height.of(features(s, s.dense_pixel_var_given));
+    const double given = model.dense_height.of(features(s, s.dense_pixel_var_given));
     const double per_tilt = 1.0 / s.dense_slope_n3;
-    row = {s.dense_err_height * per_tilt, (given + reference_var(s, 0.0)) * per_tilt * per_tilt,
-           1.0, features(s, s.dense_pixel_var_n3)};
+    row = {(s.dense_err_height - bend_of(s, model)) * per_tilt,
+           (given + reference_var(s, model, 0.0)) * per_tilt * per_tilt, 1.0,
+           features(s, s.dense_pixel_var_n3)};
     out->hand_var = s.dense_hand_var_n3;
     out->direct = false;
   }
   return true;
 }
 
-bool points_row(const Sample& s, TargetRow* out) {
+bool points_row(const Sample& s, const GroundModel& model, TargetRow* out) {
   if (!(s.points_used > 0.5)) return false;
-  out->row = {s.points_err, reference_var(s, s.points_ref_var), 1.0,
+  out->row = {s.points_err - bend_of(s, model), reference_var(s, model, s.points_ref_var), 1.0,
               points_features(s.points_num_inliers, s.points_spread, s.turn_ratio, s.step_ratio)};
   out->hand_var = s.points_hand_var;
   return true;
@@ -61,14 +66,14 @@ bool travel_row(const Sample& s, TargetRow* out) {
   return true;
 }
 
-bool row_of(Target target, const Sample& s, const LogVariance& dense_height, TargetRow* out) {
+bool row_of(Target target, const Sample& s, const GroundModel& model, TargetRow* out) {
   switch (target) {
     case Target::kPoints:
-      return points_row(s, out);
+      return points_row(s, model, out);
     case Target::kTravel:
       return travel_row(s, out);
     default:
-      return dense_row(target, s, dense_height, out);
+      return dense_row(target, s, model, out);
   }
 }
 
@@ -80,12 +85,11 @@ const char* target_name(Target target) {
   return kNames[static_cast<std::size_t>(target)];
 }
 
-std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
-                               const LogVariance& dense_height) {
+std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive, const GroundModel& model) {
   std::vector<TargetRow> rows;
   for (const Sample& s : drive.frames) {
     TargetRow row;
-    if (!row_of(target, s, dense_height, &row)) continue;
+    if (!row_of(target, s, model, &row)) continue;
     bool complete = finite(row.row.error, row.row.extra_var, row.hand_var);
     for (const double f : row.row.features) complete = complete && std::isfinite(f);
     if (!complete) continue;

@@ -25,10 +25,10 @@ struct TargetRow {
 };
 
 /// Rows of one drive, weighted so that a long drive counts for more than a short one, but not in proportion: its frames
-/// are alike. `dense_height` (already fitted) gives dense_n3 of frames without a true plane: there the error of the
-/// height is nearly all tilt times slope.
+/// are alike. Of `model`, road_* and dense_height (already fitted) serve frames without a true plane: there the height
+/// ahead follows from the road's bend, and the error of the height is nearly all tilt times slope.
 [[nodiscard]] std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
-                                             const LogVariance& dense_height);
+                                             const GroundModel& model);
 
 [[nodiscard]] LogVariance& model_of(Target target, GroundModel* model);
 [[nodiscard]] const LogVariance& model_of(Target target, const GroundModel& model);
