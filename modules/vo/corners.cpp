@@ -6,6 +6,9 @@
 namespace plumb::vo {
 namespace {
 
+/// Place in a buffer. An image has at most 2^26 pixels: int holds every product of its sides.
+constexpr std::size_t place(int i) { return static_cast<std::size_t>(i); }
+
 constexpr int kBorderPx = 6;
 constexpr int kBoxHalf = 2;  // structure tensor over 5 x 5
 constexpr int kMaskStep = 2;
@@ -44,10 +47,10 @@ CornerDetector::CornerDetector(int width_px, int height_px, int max_corners)
   columns_ = std::max(1, static_cast<int>(width_px / side));
   rows_ = std::max(1, static_cast<int>(height_px / side));
   pitch_ = width_px / columns_ + 2 * kBoxHalf + 16;
-  const auto buffer = static_cast<std::size_t>(pitch_ * (height_px / rows_ + 2 * kBoxHalf + 8));
-  cell_taken_.resize(static_cast<std::size_t>(columns_ * rows_));
+  const auto buffer = place(pitch_ * (height_px / rows_ + 2 * kBoxHalf + 8));
+  cell_taken_.resize(place(columns_ * rows_));
   mask_width_ = width_px / kMaskStep + 1;
-  mask_.resize(static_cast<std::size_t>(mask_width_ * (height_px / kMaskStep + 1)));
+  mask_.resize(place(mask_width_ * (height_px / kMaskStep + 1)));
   for (auto* v : {&xx_, &xy_, &yy_, &sum_xx_, &sum_xy_, &sum_yy_}) v->resize(buffer);
   found_.reserve(cell_taken_.size());
 }
@@ -69,12 +72,12 @@ void CornerDetector::take(const Eigen::Vector2d& px) {
   const int v = std::clamp(static_cast<int>(px.y()), 0, height_px_ - 1);
   const int column = std::min(columns_ - 1, u * columns_ / width_px_);
   const int row = std::min(rows_ - 1, v * rows_ / height_px_);
-  cell_taken_[static_cast<std::size_t>(row * columns_ + column)] = 1;
+  cell_taken_[place(row * columns_ + column)] = 1;
   const int last_v = height_px_ / kMaskStep;
   for (int j = v / kMaskStep - kMaskReach; j <= v / kMaskStep + kMaskReach; ++j) {
     for (int i = u / kMaskStep - kMaskReach; i <= u / kMaskStep + kMaskReach; ++i) {
       if (i < 0 || j < 0 || i >= mask_width_ || j > last_v) continue;
-      mask_[static_cast<std::size_t>(j * mask_width_ + i)] = 1;
+      mask_[place(j * mask_width_ + i)] = 1;
     }
   }
 }
@@ -83,11 +86,11 @@ void CornerDetector::tensor_rows(const ImageView& image, const Cell& c) {
   const int n = c.u1 - c.u0 + 2 * kBoxHalf;
   const int m = c.v1 - c.v0 + 2 * kBoxHalf;
   for (int j = 0; j < m; ++j) {
-    const auto at = static_cast<std::size_t>(j * pitch_);
+    const auto at = place(j * pitch_);
     products(image, c.u0 - kBoxHalf, c.v0 - kBoxHalf + j, n, &xx_[at], &xy_[at], &yy_[at]);
   }
   for (int j = 0; j + 2 * kBoxHalf < m; ++j) {
-    const auto at = static_cast<std::size_t>(j * pitch_);
+    const auto at = place(j * pitch_);
     box_row(&xx_[at], pitch_, n, &sum_xx_[at]);
     box_row(&xy_[at], pitch_, n, &sum_xy_[at]);
     box_row(&yy_[at], pitch_, n, &sum_yy_[at]);
@@ -104,7 +107,7 @@ bool CornerDetector::best_in(const Cell& c, float threshold, Eigen::Vector2d* px
   float score[512];
   const int n = std::min(c.u1 - c.u0, 512);
   for (int v = c.v0; v < c.v1; ++v) {
-    const auto at = static_cast<std::size_t>((v - c.v0) * pitch_);
+    const auto at = place((v - c.v0) * pitch_);
     const float* sxx = &sum_xx_[at];
     const float* sxy = &sum_xy_[at];
     const float* syy = &sum_yy_[at];
@@ -114,7 +117,7 @@ bool CornerDetector::best_in(const Cell& c, float threshold, Eigen::Vector2d* px
       const float yy = along(syy, i);
       score[i] = 0.5F * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4.0F * xy * xy));
     }
-    const auto mask_row = static_cast<std::size_t>(v / kMaskStep * mask_width_);
+    const auto mask_row = place(v / kMaskStep * mask_width_);
     for (int i = 0; i < n; ++i) {
       if (score[i] <= best) continue;
       if (mask_[mask_row + static_cast<std::size_t>((c.u0 + i) / kMaskStep)] != 0) continue;
@@ -131,7 +134,7 @@ const std::vector<Eigen::Vector2d>& CornerDetector::detect(const ImageView& imag
   found_.clear();
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      if (cell_taken_[static_cast<std::size_t>(row * columns_ + column)] != 0) continue;
+      if (cell_taken_[place(row * columns_ + column)] != 0) continue;
       const Cell c = cell(column, row);
       if (c.u1 <= c.u0 || c.v1 <= c.v0) continue;
       tensor_rows(image, c);

@@ -5,6 +5,8 @@
 namespace plumb::vo {
 namespace {
 
+constexpr std::ptrdiff_t kLanes = 8;  // bytes that one vector of floats takes in
+
 // Per pixel: below this the patch is noise.
 constexpr float kMinVarianceGrey2 = 1.0F;
 // Determinant over squared trace: below this the patch is an edge.
@@ -55,11 +57,11 @@ bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px) {
   alignas(32) Raw raw;
   Float8 top[kRawVectors];
   const std::uint8_t* p = image.row(v0) + u0;
-  for (int k = 0; k < kRawVectors; ++k) top[k] = lerp_bytes(p + 8 * k, fu);
+  for (int k = 0; k < kRawVectors; ++k) top[k] = lerp_bytes(p + kLanes * k, fu);
   for (int j = 0; j < kRawSize; ++j) {
     p += image.stride_bytes;
     for (int k = 0; k < kRawVectors; ++k) {
-      const Float8 bottom = lerp_bytes(p + 8 * k, fu);
+      const Float8 bottom = lerp_bytes(p + kLanes * k, fu);
       store_floats(top[k] + fv * (bottom - top[k]), &raw[j][8 * k]);
       top[k] = bottom;
     }
@@ -150,11 +152,11 @@ typename Patch<kHalf>::Sums Patch<kHalf>::compare(const std::uint8_t* corner, st
                                                   float fu, float fv) const {
   Float8 p{}, pp{}, pt{}, px{}, py{};
   Float8 top[kVectors];
-  for (int k = 0; k < kVectors; ++k) top[k] = lerp_bytes(corner + 8 * k, fu);
+  for (int k = 0; k < kVectors; ++k) top[k] = lerp_bytes(corner + kLanes * k, fu);
   for (int j = 0; j < kSize; ++j) {
     corner += stride;
     for (int k = 0; k < kVectors; ++k) {
-      const Float8 bottom = lerp_bytes(corner + 8 * k, fu);
+      const Float8 bottom = lerp_bytes(corner + kLanes * k, fu);
       const Float8 v = mask(k) * (top[k] + fv * (bottom - top[k]) - mean_);
       top[k] = bottom;
       p += v;

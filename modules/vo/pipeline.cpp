@@ -41,7 +41,7 @@ Pipeline::Pipeline(const VoConfig& config, const CameraModel& camera, std::uint6
       tracker_(camera, kTracksPerActive * config.max_tracks),
       keyframes_(config, camera, kTracksPerActive * config.max_tracks),
       refiner_(kTracksPerActive * config.max_tracks) {
-  const auto capacity = static_cast<std::size_t>(kTracksPerActive * config.max_tracks);
+  const auto capacity = std::size_t{kTracksPerActive} * static_cast<std::size_t>(config.max_tracks);
   pairs_.reserve(capacity);
   scratch_.reserve(capacity);
 }
@@ -142,7 +142,7 @@ PoseFit Pipeline::locate(StageProbe& probe) {
   probe.mark("pose");
   tracker_.anchor(image().level(0), tracks_, window_, rough.T_cam_world);
   probe.mark("anchor");
-  const PoseFit pose = fit(rough.T_cam_world, 8);
+  PoseFit pose = fit(rough.T_cam_world, 8);
   probe.mark("pose");
   return pose;
 }
