@@ -18,7 +18,7 @@
 
 namespace plumb {
 
-/// "Rectified" KITTI images keep radial terms: a point at the image's side is 10 px further out than a pinhole puts it. Measured
+/// "Rectified" KITTI images keep radial terms: a point at the image's side is 9 px further out than a pinhole puts it. Measured
 /// where VO's scale drifts neither in 90 degree turns (04 .. 10's day) nor on the straight; one term cannot do both.
 inline constexpr double kKittiResidualK1 = 0.0256;
 inline constexpr double kKittiResidualK2 = -0.0076;
