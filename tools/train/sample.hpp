@@ -67,8 +67,7 @@ struct Sample {
   double travel_chord_ratio = kNone;  ///< chord in camera heights
   double travel_num_frames = kNone;
   double travel_err = kNone;
-  double travel_ref =
-      kNone;
+  double travel_ref = kNone;
   double travel_hand_var = kNone;
   // What was reported, with the deviations of that run.
   double out_scale_err = kNone;
