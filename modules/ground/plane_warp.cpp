@@ -5,63 +5,14 @@
 #include <cstring>
 
 #include "modules/ground/lanes.hpp"
+#include "modules/ground/plane_landing.hpp"
 
 namespace plumb {
 namespace {
 
 // Degrees of freedom of the residuals' Student-t distribution: w = (nu + 1) / (nu + r^2 / sigma^2).
 constexpr float kNu = 5.0F;
-constexpr float kNearestDepth = 0.1F;
-
-struct Homography {
-  float g[3][3];
-  float t[3];
-};
-
-Homography make_homography(const Se3& T_old_cam, const Eigen::Vector3d& q) {
-  const Eigen::Matrix3d G = T_old_cam.R + T_old_cam.t * q.transpose();
-  Homography h{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) h.g[i][j] = static_cast<float>(G(i, j));
-    h.t[i] = static_cast<float>(T_old_cam.t(i));
-  }
-  return h;
-}
-
-/// Where eight rays land in the older image.
-struct Landing {
-  Lanes xn;
-  Lanes yn;
-  Lanes inverse_depth;
-  Lanes fu;         ///< fraction of the column
-  Lanes fv;         ///< fraction of the row
-  IntLanes column;  ///< clamped into the image
-  IntLanes row;
-  IntLanes inside;  ///< all ones where the 4x4 neighbourhood is in the image
-};
-
-inline Lanes splat(float v) { return Lanes{} + v; }
-
-inline void land(const Homography& h, const LevelCamera& camera, const ImageView& image,
-                 const Lanes& x, const Lanes& y, Landing* out) {
-  const Lanes depth = h.g[2][0] * x + h.g[2][1] * y + h.g[2][2];
-  out->inverse_depth = 1.0F / depth;
-  out->xn = (h.g[0][0] * x + h.g[0][1] * y + h.g[0][2]) * out->inverse_depth;
-  out->yn = (h.g[1][0] * x + h.g[1][1] * y + h.g[1][2]) * out->inverse_depth;
-  const Lanes r2 = out->xn * out->xn + out->yn * out->yn;
-  const Lanes radial = 1.0F + r2 * (camera.k1 + r2 * camera.k2);
-  const Lanes u = camera.fx * out->xn * radial + camera.cx;
-  const Lanes v = camera.fy * out->yn * radial + camera.cy;
-  const float max_u = static_cast<float>(image.width_px - 3);
-  const float max_v = static_cast<float>(image.height_px - 3);
-  out->inside = (depth > kNearestDepth) & (u >= 1.0F) & (u < max_u) & (v >= 1.0F) & (v < max_v);
-  const Lanes safe_u = out->inside ? u : splat(1.0F);
-  const Lanes safe_v = out->inside ? v : splat(1.0F);
-  out->column = __builtin_convertvector(safe_u, IntLanes);
-  out->row = __builtin_convertvector(safe_v, IntLanes);
-  out->fu = safe_u - __builtin_convertvector(out->column, Lanes);
-  out->fv = safe_v - __builtin_convertvector(out->row, Lanes);
-}
+constexpr int kReach_px = 1;  // for the central differences
 
 /// Byte `k` of each little-endian word as float.
 template <int k>
@@ -187,7 +138,7 @@ void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
     load(pixels.y + i, &y);
     load(pixels.grey + i, &grey);
     Landing at{};
-    land(h, camera_, image_, x, y, &at);
+    land(h, camera_, image_, x, y, kReach_px, &at);
     Sample old{};
     sample_with_gradient(image_, at, &old);
     const Lanes r = old.value - gain * grey - bias;
@@ -214,7 +165,7 @@ Likeness PlaneWarp::compare(const RoadPixels& pixels, const Eigen::Vector3d& q) 
     load(pixels.y + i, &y);
     load(pixels.grey + i, &grey);
     Landing at{};
-    land(h, camera_, image_, x, y, &at);
+    land(h, camera_, image_, x, y, kReach_px, &at);
     sample_value(image_, at, &old);
     const IntLanes usable = at.inside & held(i, pixels.size);
     const Lanes a = usable ? old : zero;

@@ -43,8 +43,7 @@ void undistort(const LevelCamera& camera, RoadPixels* pixels) {
     for (int k = 0; k < 4; ++k) {
       const float x = xd * s;
       const float y = yd * s;
-      const float r2 = x * x + y * y;
-      s = 1.0F / (1.0F + r2 * (camera.k1 + r2 * camera.k2));
+      s = 1.0F / camera.radial(x * x + y * y);
     }
     pixels->x[i] = xd * s;
     pixels->y[i] = yd * s;

@@ -23,6 +23,12 @@ struct LevelCamera {
   float cy = 0.0F;
   float k1 = 0.0F;
   float k2 = 0.0F;
+
+  /// As CameraModel::radial, of one or of several squared radii.
+  template <typename T>
+  [[nodiscard]] T radial(const T& r2) const {
+    return 1.0F + r2 * (k1 + r2 * k2);
+  }
 };
 
 [[nodiscard]] LevelCamera camera_of_level(const CameraModel& camera, int level);

@@ -6,62 +6,12 @@
 #include <limits>
 
 #include "modules/ground/lanes.hpp"
+#include "modules/ground/plane_landing.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr float kNearestDepth = 0.1F;
 constexpr double kLeastOverlap = 0.5;
-
-inline Lanes splat(float v) { return Lanes{} + v; }
-
-/// Rows of the homography and lens of the older image, in float.
-struct Warp {
-  float g[3][3];
-  float fx, fy, cx, cy, k1, k2;
-};
-
-Warp make_warp(const CameraModel& camera, const Se3& T_old_cam, const Eigen::Vector3d& q) {
-  const Eigen::Matrix3d G = T_old_cam.R + T_old_cam.t * q.transpose();
-  Warp w{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) w.g[i][j] = static_cast<float>(G(i, j));
-  }
-  w.fx = static_cast<float>(camera.fx_px);
-  w.fy = static_cast<float>(camera.fy_px);
-  w.cx = static_cast<float>(camera.cx_px);
-  w.cy = static_cast<float>(camera.cy_px);
-  w.k1 = static_cast<float>(camera.residual_k1);
-  w.k2 = static_cast<float>(camera.residual_k2);
-  return w;
-}
-
-/// Where eight rays land, clamped into the image; `inside` is all ones where they did.
-struct Landing {
-  Lanes fu, fv;
-  IntLanes column, row, inside;
-};
-
-inline void land(const Warp& w, const ImageView& image, const Lanes& x, const Lanes& y,
-                 Landing* at) {
-  const Lanes depth = w.g[2][0] * x + w.g[2][1] * y + w.g[2][2];
-  const Lanes inverse = 1.0F / depth;
-  const Lanes xn = (w.g[0][0] * x + w.g[0][1] * y + w.g[0][2]) * inverse;
-  const Lanes yn = (w.g[1][0] * x + w.g[1][1] * y + w.g[1][2]) * inverse;
-  const Lanes r2 = xn * xn + yn * yn;
-  const Lanes radial = 1.0F + r2 * (w.k1 + r2 * w.k2);
-  const Lanes u = w.fx * xn * radial + w.cx;
-  const Lanes v = w.fy * yn * radial + w.cy;
-  const auto max_u = static_cast<float>(image.width_px - 1);
-  const auto max_v = static_cast<float>(image.height_px - 1);
-  at->inside = (depth > kNearestDepth) & (u >= 0.0F) & (u < max_u) & (v >= 0.0F) & (v < max_v);
-  const Lanes safe_u = at->inside ? u : splat(0.0F);
-  const Lanes safe_v = at->inside ? v : splat(0.0F);
-  at->column = __builtin_convertvector(safe_u, IntLanes);
-  at->row = __builtin_convertvector(safe_v, IntLanes);
-  at->fu = safe_u - __builtin_convertvector(at->column, Lanes);
-  at->fv = safe_v - __builtin_convertvector(at->row, Lanes);
-}
 
 /// Interpolates along u in the row `row_offset` below the landing.
 inline void sample_row(const ImageView& image, const Landing& at, int row_offset, Lanes* out) {
@@ -113,7 +63,8 @@ void RoadRegion::take(const ImageView& image) {
 
 double RoadRegion::sad(const ImageView& old_image, const Se3& T_old_cam,
                        const Eigen::Vector3d& q) const {
-  const Warp warp = make_warp(camera_, T_old_cam, q);
+  const Homography h = make_homography(T_old_cam, q);
+  const LevelCamera camera = camera_of_level(camera_, 0);
   Lanes sum{}, count{};
   for (std::size_t i = 0; i < grey_.size(); i += kLanes) {
     Lanes x, y, grey, upper, lower;
@@ -121,7 +72,7 @@ double RoadRegion::sad(const ImageView& old_image, const Se3& T_old_cam,
     load(y_.data() + i, &y);
     load(grey_.data() + i, &grey);
     Landing at{};
-    land(warp, old_image, x, y, &at);
+    land(h, camera, old_image, x, y, 0, &at);
     sample_row(old_image, at, 0, &upper);
     sample_row(old_image, at, 1, &lower);
     const Lanes difference = upper + at.fv * (lower - upper) - grey;
