@@ -17,6 +17,7 @@ constexpr double kPixelCorrelation = 3.0;
 // In a turn, what calibration leaves over bends the flow and looks like a tilt with a matching height: exactly the
 // direction that pixels tell worst. Grows with the path's curvature.
 constexpr double kTurnGrowth = 20.0;
+// A road that shows no texture in one direction still has a variance there.
 constexpr double kLeastInformation = 1e-3;
 constexpr double kDenseTiltFloorStd = 0.4 * kDegree;
 constexpr double kDenseLnHeightFloorStd = 0.03;
@@ -51,14 +52,20 @@ Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q) {
   return {q.x() / norm, q.z() / norm, -std::log(norm)};
 }
 
+Eigen::Matrix3d state_information(const DenseObservation& dense, double noise_ratio) {
+  const Eigen::Matrix3d J = plane_jacobian(state_of_plane(dense.q));
+  return J.transpose() * dense.information * J / (noise_ratio * noise_ratio) +
+         kLeastInformation * Eigen::Matrix3d::Identity();
+}
+
+Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information) {
+  return -state_information.block<1, 2>(2, 0) / state_information(2, 2);
+}
+
 Eigen::Matrix3d FloorCovariance::dense(const DenseObservation& dense,
                                        const CueContext& context) const {
   const double correlation = kPixelCorrelation * (1.0 + kTurnGrowth * context.turn_ratio);
-  const Eigen::Matrix3d J = plane_jacobian(state_of_plane(dense.q));
-  const Eigen::Matrix3d information =
-      J.transpose() * dense.information * J / (correlation * correlation) +
-      kLeastInformation * Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d cov = information.inverse();
+  Eigen::Matrix3d cov = state_information(dense, correlation).inverse();
   cov(0, 0) += kDenseTiltFloorStd * kDenseTiltFloorStd;
   cov(1, 1) += kDenseTiltFloorStd * kDenseTiltFloorStd;
   cov(2, 2) += kDenseLnHeightFloorStd * kDenseLnHeightFloorStd;

@@ -70,4 +70,11 @@ class FloorCovariance final : public CueCovariance {
 /// (n1, n3, ln h) of a plane q = n/h.
 [[nodiscard]] Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q);
 
+/// Information of (n1, n3, ln h) in the dense cue by pixel noise alone, never singular. `noise_ratio`: standard
+/// deviation of the residuals over what they were taken for.
+[[nodiscard]] Eigen::Matrix3d state_information(const DenseObservation& dense,
+                                                double noise_ratio = 1.0);
+/// d(ln h given the normal) / d(n1, n3).
+[[nodiscard]] Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information);
+
 }  // namespace plumb

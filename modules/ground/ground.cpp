@@ -44,14 +44,6 @@ constexpr double kSettledLnStd = 0.05;
 // at 1.65 m and 10 images/s from 1.3 to 60 m/s.
 constexpr std::array<double, 6> kStartSteps{0.12, 0.26, 0.5, 0.95, 1.7, 3.0};
 
-double height_m_of(const GroundConfig& config, const CameraModel& camera) {
-  return camera.camera_height_m > 0.0 ? camera.camera_height_m : config.camera_height_m;
-}
-
-CueObservation absent_cue() {
-  return {CueStatus::kAbsent, kNan, kNan, kNan, kNan, kNan, kNan, 0.0};
-}
-
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
   // Trained before the second radial term and the present noise in turns: taken only when its file is named.
@@ -62,10 +54,18 @@ std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
 
 }  // namespace
 
+CueObservation absent_cue() {
+  return {CueStatus::kAbsent, kNan, kNan, kNan, kNan, kNan, kNan, 0.0, {}, 0};
+}
+
+double camera_height_of(const GroundConfig& config, const CameraModel& camera) {
+  return camera.camera_height_m > 0.0 ? camera.camera_height_m : config.camera_height_m;
+}
+
 struct GroundEstimator::Impl {
   Impl(const GroundConfig& config_in, const CameraModel& camera, const GroundModel& model)
       : config(config_in),
-        camera_height_m(height_m_of(config_in, camera)),
+        camera_height_m(camera_height_of(config_in, camera)),
         ring(camera),
         dense_cue(ring.camera(), ring.num_levels()),
         covariance(make_covariance(config_in, model)) {

@@ -77,6 +77,12 @@ struct CueObservation {
   int num_features = 0;
 };
 
+/// Of a cue that did not look, with NaN for everything that it would observe.
+[[nodiscard]] CueObservation absent_cue();
+
+/// The calibration's where it states one.
+[[nodiscard]] double camera_height_of(const GroundConfig& config, const CameraModel& camera);
+
 /// The camera's pitch out of one detected object.
 struct ObjectNormal {
   double n3 = 0.0;

@@ -4,26 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/ground/plane_filter.hpp"
-
 namespace plumb {
 namespace {
 
-// A road that shows no texture in one direction still has a variance there.
-constexpr double kLeastInformation = 1e-3;
 constexpr double kSmallestStepRatio = 1e-3;
 constexpr double kMostRepetition = 1000.0;
 
 }  // namespace
-
-Eigen::Matrix3d state_information(const DenseObservation& dense) {
-  const Eigen::Matrix3d J = plane_jacobian(state_of_plane(dense.q));
-  return J.transpose() * dense.information * J + kLeastInformation * Eigen::Matrix3d::Identity();
-}
-
-Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information) {
-  return -state_information.block<1, 2>(2, 0) / state_information(2, 2);
-}
 
 double repetition_of(double memory_ratio, double step_ratio) {
   const double x = 0.5 * std::max(step_ratio, kSmallestStepRatio) / std::max(memory_ratio, 1e-6);

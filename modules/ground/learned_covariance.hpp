@@ -29,11 +29,6 @@ class LearnedCovariance final : public CueCovariance {
   GroundModel model_;
 };
 
-/// Information of (n1, n3, ln h) in the dense cue by pixel noise alone, never singular.
-[[nodiscard]] Eigen::Matrix3d state_information(const DenseObservation& dense);
-/// d(ln h given the normal) / d(n1, n3).
-[[nodiscard]] Eigen::RowVector2d given_slope(const Eigen::Matrix3d& state_information);
-
 /// Sum of the correlations e^(-k step / memory) over all k: how many images share one independent error.
 [[nodiscard]] double repetition_of(double memory_ratio, double step_ratio);
 

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "modules/ground/learned_covariance.hpp"
+#include "modules/ground/cue_covariance.hpp"
 #include "modules/ground/plane_filter.hpp"
 
 namespace plumb {

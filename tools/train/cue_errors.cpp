@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "modules/geometry/pose_wire.hpp"
-#include "modules/ground/learned_covariance.hpp"
+#include "modules/ground/cue_covariance.hpp"
 #include "modules/ground/plane_filter.hpp"
 
 namespace plumb {

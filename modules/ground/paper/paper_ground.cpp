@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "modules/ground/ego_motion.hpp"
 #include "modules/ground/paper/cue_fusion.hpp"
@@ -14,8 +13,6 @@
 
 namespace plumb {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The start wants two frames in a row whose heights agree this well in ln h.
 constexpr double kAgreeLnHeight = 0.15;
@@ -30,10 +27,6 @@ Eigen::Vector3d calibrated_normal(const PaperConfig& paper) {
   return {std::cos(p) * std::sin(r), std::cos(p) * std::cos(r), std::sin(p)};
 }
 
-CueObservation absent_cue() {
-  return {CueStatus::kAbsent, kNan, kNan, kNan, kNan, kNan, kNan, 0.0, {}, 0};
-}
-
 }  // namespace
 
 struct PaperGround::Impl {
@@ -41,7 +34,7 @@ struct PaperGround::Impl {
       : config(config_in),
         camera(camera_in),
         model(model_in),
-        height_m(camera.camera_height_m > 0.0 ? camera.camera_height_m : config.camera_height_m),
+        height_m(camera_height_of(config, camera)),
         normal_calibrated(calibrated_normal(config.paper)),
         box(region_of(camera, config.paper.region_width_ratio, config.paper.region_height_ratio)),
         images(camera.width_px, camera.height_px),

@@ -22,7 +22,7 @@ class PaperGround final : public GroundAlgorithm {
  public:
   /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
   PaperGround(const GroundConfig& config, const CameraModel& camera,
-              const PaperModel& model = default_paper_model());
+              const PaperModel& model = built_in_ground_model().paper);
   ~PaperGround() override;
 
   const GroundOutput& update(const GroundInput& input, StageProbe& probe) override;

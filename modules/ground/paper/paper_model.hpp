@@ -31,7 +31,4 @@ struct PaperModel {
   LinearVariance objects_n3;
 };
 
-/// Fitted to the drives that README.md beside this file names.
-[[nodiscard]] PaperModel default_paper_model();
-
 }  // namespace plumb

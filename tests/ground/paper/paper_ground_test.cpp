@@ -107,7 +107,7 @@ TEST(PaperGround, FindsTheScaleWithEitherCueAlone) {
 TEST(PaperGround, FixedCovariancesDoNotFollowTheBelief) {
   Rehearsal learned(paper_config());
   Rehearsal fixed(paper_config("all", "fixed"));
-  const PaperModel model = default_paper_model();
+  const PaperModel model = built_in_ground_model().paper;
   for (int k = 0; k < 10; ++k) {
     const GroundOutput& a = learned.step(k);
     const GroundOutput& b = fixed.step(k);
