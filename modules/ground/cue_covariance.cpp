@@ -47,6 +47,13 @@ double turn_repetition(const CueContext& context) {
   return growth * growth;
 }
 
+Eigen::Matrix3d with_height_repeated(const Eigen::Matrix3d& cov, double repetition) {
+  const double given_var = 1.0 / cov.inverse()(2, 2);
+  Eigen::Matrix3d repeated = cov;
+  repeated(2, 2) += (repetition - 1.0) * given_var;
+  return repeated;
+}
+
 Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q) {
   const double norm = q.norm();
   return {q.x() / norm, q.z() / norm, -std::log(norm)};
@@ -89,8 +96,6 @@ double FloorCovariance::dense_repetition(const CueContext& context) const {
 double FloorCovariance::points_repetition(const CueContext& context) const {
   return repetition(context);
 }
-
-double FloorCovariance::travel_repetition(const CueContext& /*context*/) const { return 1.0; }
 
 double FloorCovariance::dense_quality(const DenseObservation& dense) const {
   return dense.ok ? std::clamp(dense.ncc, 0.0, 1.0) : 0.0;

@@ -17,13 +17,6 @@ struct CueContext {
   double step_ratio = 1.0;  ///< motion since the previous image, in camera heights
 };
 
-/// A road that bends up or down lies, where it is seen, at another height than under the camera. The angle between it
-/// and the direction of travel tells how much: ln(height seen) = ln(height) + slope * (n . direction) + noise.
-struct RoadBend {
-  double slope = 0.0;
-  double var = 0.0;  ///< of the noise; already as many times as images share it
-};
-
 class CueCovariance {
  public:
   virtual ~CueCovariance() = default;
@@ -35,13 +28,11 @@ class CueCovariance {
                                       const CueContext& context) const = 0;
   /// Of n . direction. @pre travel.valid
   [[nodiscard]] virtual double travel(const Travel& travel, const CueContext& context) const = 0;
-  /// How many neighbouring images share one independent error, at least 1: a filter over images takes the cue's
-  /// variance that many times.
+  /// How many neighbouring images share one independent error of the height, at least 1: a filter over images takes its
+  /// variance that many times. The tilt's is taken once: a car pitches on from image to image, and a filter that trusts
+  /// no tilt lags behind and takes a crest for a change of scale.
   [[nodiscard]] virtual double dense_repetition(const CueContext& context) const = 0;
   [[nodiscard]] virtual double points_repetition(const CueContext& context) const = 0;
-  [[nodiscard]] virtual double travel_repetition(const CueContext& context) const = 0;
-  /// How the road's own shape enters a height that is seen some way ahead.
-  [[nodiscard]] virtual RoadBend road_bend(const CueContext& context) const = 0;
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
   [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
   [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
@@ -58,14 +49,15 @@ class FloorCovariance final : public CueCovariance {
   [[nodiscard]] double travel(const Travel& travel, const CueContext& context) const override;
   [[nodiscard]] double dense_repetition(const CueContext& context) const override;
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
-  [[nodiscard]] double travel_repetition(const CueContext& context) const override;
-  [[nodiscard]] RoadBend road_bend(const CueContext& /*context*/) const override { return {}; }
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
 };
 
 /// How much longer than on the straight a cue's error lasts in a turn; 1 on the straight.
 [[nodiscard]] double turn_repetition(const CueContext& context);
+
+/// Takes the variance of ln h, the normal known, `repetition` times; what follows from the tilt stays.
+[[nodiscard]] Eigen::Matrix3d with_height_repeated(const Eigen::Matrix3d& cov, double repetition);
 
 /// (n1, n3, ln h) of a plane q = n/h.
 [[nodiscard]] Eigen::Vector3d state_of_plane(const Eigen::Vector3d& q);

@@ -46,9 +46,7 @@ constexpr std::array<double, 6> kStartSteps{0.12, 0.26, 0.5, 0.95, 1.7, 3.0};
 
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
-  // Trained before the second radial term and the present noise in turns: taken only when its file is named.
-  const bool unnamed = config.model_file.empty();
-  if (config.covariance == "fixed" || unnamed) return std::make_unique<FloorCovariance>();
+  if (config.covariance == "fixed") return std::make_unique<FloorCovariance>();
   return std::make_unique<LearnedCovariance>(model);
 }
 
@@ -69,7 +67,7 @@ struct GroundEstimator::Impl {
         ring(camera),
         dense_cue(ring.camera(), ring.num_levels()),
         covariance(make_covariance(config_in, model)) {
-    if (config.covariance != "fixed" && !config.model_file.empty()) bias = model.bias;
+    if (config.covariance != "fixed") bias = model.bias;
   }
 
   void take_image(const GroundInput& input);
@@ -290,20 +288,17 @@ void GroundEstimator::Impl::fuse() {
   if (!filter.started()) return;
   filter.observe_level_roll();
   const CueContext& context = frame.context;
-  filter.observe_travel(frame.travel.direction, covariance->travel_repetition(context) *
-                                                    covariance->travel(frame.travel, context));
-  const RoadBend road = covariance->road_bend(context);
+  filter.observe_travel(frame.travel.direction, covariance->travel(frame.travel, context));
   if (frame.dense_status == CueStatus::kUsed) {
-    const PlaneUnder seen = plane_under(frame, *covariance, road);
-    if (!filter.observe_plane(seen.state, seen.cov)) frame.dense_status = CueStatus::kGated;
+    const Eigen::Matrix3d cov = with_height_repeated(covariance->dense(frame.dense, context),
+                                                     covariance->dense_repetition(context));
+    if (!filter.observe_plane(state_of_plane(frame.dense.q), cov))
+      frame.dense_status = CueStatus::kGated;
   }
-  if (frame.points_status == CueStatus::kUsed &&
-      !filter.observe_point(
-          frame.points.centre,
-          covariance->points_repetition(context) * covariance->points(frame.points, context) +
-              road.var,
-          road.slope * frame.travel.direction)) {
-    frame.points_status = CueStatus::kGated;
+  if (frame.points_status == CueStatus::kUsed) {
+    const double var =
+        covariance->points_repetition(context) * covariance->points(frame.points, context);
+    if (!filter.observe_point(frame.points.centre, var)) frame.points_status = CueStatus::kGated;
   }
   if (starts && frame.height_refused()) filter.forget();  // not the road: a truck's back, a mirror
   filter.end_frame(frame.height_measured(), frame.height_refused());

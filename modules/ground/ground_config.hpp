@@ -35,7 +35,7 @@ struct GroundConfig {
           "algorithm: ours, or the one of Song and Chandraker 2014, for comparison");
     field("ground.covariance", c.covariance, {"learned", "fixed"},
           "how far cues are trusted: by what training found for such frames; or as set by hand "
-          "(paper mode: one covariance for all frames)");
+          "(paper mode: one trained covariance for all frames)");
     field("ground.model_file", c.model_file,
           "model written by plumb-train fit; empty: config/ground_model.toml as of the build");
     field("ground.cues", c.cues, {"all", "dense", "points"}, "paper mode: cues of height to fuse");

@@ -14,7 +14,7 @@
 
 namespace plumb {
 
-inline constexpr int kGroundModelVersion = 1;
+inline constexpr int kGroundModelVersion = 2;
 inline constexpr std::size_t kNumCueFeatures = 4;
 using CueFeatures = std::array<double, kNumCueFeatures>;
 
@@ -75,14 +75,9 @@ struct GroundModel {
   LogVariance dense_height;  ///< of ln h once the normal is known
   LogVariance points;        ///< of ln h once the normal is known
   LogVariance travel;        ///< of n . direction
-  /// Way over which a cue's errors stay alike, in camera heights.
+  /// Way over which a cue's errors of the height stay alike, in camera heights.
   double dense_memory_ratio = 0.0;
   double points_memory_ratio = 0.0;
-  double travel_memory_ratio = 0.0;
-  /// ln(height of the road ahead / height) = slope * (n . direction of travel) + noise.
-  double road_bend_slope = 0.0;
-  double road_ln_height_std = 0.0;
-  double road_memory_ratio = 0.0;
   PlaneBias bias;
   PaperModel paper;
 

@@ -69,12 +69,6 @@ void GroundModel::visit(Model& m, Visit&& field) {
   field("memory.dense_ratio", m.dense_memory_ratio, 0.0, 1000.0,
         "camera heights of way over which the dense cue's errors stay alike");
   field("memory.points_ratio", m.points_memory_ratio, 0.0, 1000.0, "the same, points");
-  field("memory.travel_ratio", m.travel_memory_ratio, 0.0, 1000.0, "the same, travel");
-  field("road.bend_slope", m.road_bend_slope, -20.0, 20.0,
-        "ln(height of the road ahead / camera height) per (normal . direction of travel)");
-  field("road.ln_height_std", m.road_ln_height_std, 0.0, 0.5, "1-sigma of what that leaves over");
-  field("road.memory_ratio", m.road_memory_ratio, 0.0, 1000.0,
-        "camera heights of way over which that stays alike");
   field("bias.ln_scale_std", m.bias.ln_scale_std, 0.0, 0.5, "1-sigma of what a whole drive keeps");
   field("bias.ln_height_std", m.bias.ln_height_std, 0.0, 0.5, "the same");
   field("bias.pitch_std_rad", m.bias.pitch_std_rad, 0.0, 0.2, "the same");

@@ -55,16 +55,6 @@ double LearnedCovariance::points_repetition(const CueContext& context) const {
   return turn_repetition(context) * repetition_of(model_.points_memory_ratio, context.step_ratio);
 }
 
-double LearnedCovariance::travel_repetition(const CueContext& context) const {
-  return repetition_of(model_.travel_memory_ratio, context.step_ratio);
-}
-
-RoadBend LearnedCovariance::road_bend(const CueContext& context) const {
-  const double std = model_.road_ln_height_std;
-  return {model_.road_bend_slope,
-          repetition_of(model_.road_memory_ratio, context.step_ratio) * std * std};
-}
-
 double LearnedCovariance::dense_quality(const DenseObservation& dense) const {
   return FloorCovariance().dense_quality(dense);
 }

@@ -20,8 +20,6 @@ class LearnedCovariance final : public CueCovariance {
   [[nodiscard]] double travel(const Travel& travel, const CueContext& context) const override;
   [[nodiscard]] double dense_repetition(const CueContext& context) const override;
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
-  [[nodiscard]] double travel_repetition(const CueContext& context) const override;
-  [[nodiscard]] RoadBend road_bend(const CueContext& context) const override;
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
 

@@ -137,14 +137,13 @@ bool PlaneFilter::observe_plane(const Eigen::Vector3d& state, const Eigen::Matri
   return true;
 }
 
-bool PlaneFilter::observe_point(const Eigen::Vector3d& centre, double var,
-                                const Eigen::Vector3d& bend) {
+bool PlaneFilter::observe_point(const Eigen::Vector3d& centre, double var) {
   const double height = normal().dot(centre);
   if (!(height > 0.0)) return false;
   Eigen::RowVector3d H;
-  H.head<2>() = (bend - centre / height).transpose() * normal_jacobian(x_);
+  H.head<2>() = -(centre / height).transpose() * normal_jacobian(x_);
   H(2) = 1.0;
-  return update_scalar(H, std::log(height) - x_(2) - bend.dot(normal()), var, true);
+  return update_scalar(H, std::log(height) - x_(2), var, true);
 }
 
 void PlaneFilter::end_frame(bool any_used, bool any_refused) {

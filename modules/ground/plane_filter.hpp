@@ -47,9 +47,8 @@ class PlaneFilter {
   void observe_travel(const Eigen::Vector3d& direction, double var);
   /// The whole state at once. False when the gate refuses.
   bool observe_plane(const Eigen::Vector3d& state, const Eigen::Matrix3d& cov);
-  /// ln(n . centre) = ln h + bend . n with variance `var`. False when the gate refuses.
-  bool observe_point(const Eigen::Vector3d& centre, double var,
-                     const Eigen::Vector3d& bend = Eigen::Vector3d::Zero());
+  /// ln(n . centre) = ln h with variance `var`. False when the gate refuses.
+  bool observe_point(const Eigen::Vector3d& centre, double var);
 
   /// Closes a frame: a run of frames in which every height was refused opens the gate again.
   void end_frame(bool any_used, bool any_refused);

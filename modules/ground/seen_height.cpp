@@ -35,18 +35,4 @@ SeenHeight see_height(const GroundSight& sight, const CueCovariance& covariance,
   return {sum.ln_height / information, 1.0 / information, sum.slope / information};
 }
 
-PlaneUnder plane_under(const GroundSight& sight, const CueCovariance& covariance,
-                       const RoadBend& road) {
-  PlaneUnder under;
-  under.state = state_of_plane(sight.dense.q);
-  const Eigen::Vector3d& along = sight.travel.direction;
-  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-  J.block<1, 2>(2, 0) = -road.slope * along.transpose() * normal_jacobian(under.state);
-  under.state(2) -= road.slope * normal_of_state(under.state).dot(along);
-  under.cov = covariance.dense_repetition(sight.context) *
-              (J * covariance.dense(sight.dense, sight.context) * J.transpose());
-  under.cov(2, 2) += road.var;
-  return under;
-}
-
 }  // namespace plumb

@@ -1,5 +1,4 @@
-/// From what one frame's cues saw ahead: the height there, over a road whose normal is known, and the plane's height under
-/// the camera.
+/// From what one frame's cues saw ahead: the height there, over a road whose normal is known.
 ///
 /// Units  [vo]; state (n1, n3, ln h), slope d(ln h) / d(n1, n3).
 #pragma once
@@ -23,14 +22,5 @@ struct SeenHeight {
 /// Mean of the used cues' heights, weighted. @pre one of them was used; `state` gives the normal
 [[nodiscard]] SeenHeight see_height(const GroundSight& sight, const CueCovariance& covariance,
                                     const Eigen::Vector3d& state);
-
-/// What the dense cue says to a filter over images: the normal ahead and ln h under the camera.
-struct PlaneUnder {
-  Eigen::Vector3d state = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();
-};
-/// @pre sight.dense.ok, sight.travel.valid
-[[nodiscard]] PlaneUnder plane_under(const GroundSight& sight, const CueCovariance& covariance,
-                                     const RoadBend& road);
 
 }  // namespace plumb

@@ -46,8 +46,6 @@ double* memory_of(Target target, GroundModel* model) {
       return &model->dense_memory_ratio;
     case Target::kPoints:
       return &model->points_memory_ratio;
-    case Target::kTravel:
-      return &model->travel_memory_ratio;
     default:
       return nullptr;
   }
@@ -101,7 +99,6 @@ double memory_of_repetition(double repetition, double step_ratio) {
 
 GroundModel fit_cues(const std::vector<DriveSamples>& drives, const GroundModel& start) {
   GroundModel model = start;
-  fit_road(drives, &model);
   for (const Target target : kTargets) {
     const auto rows = rows_per_drive(target, drives, model);
     const std::vector<VarianceRow> all = all_rows(rows);

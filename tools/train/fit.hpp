@@ -14,12 +14,8 @@ namespace plumb {
 [[nodiscard]] GroundModel fit_cues(const std::vector<DriveSamples>& drives,
                                    const GroundModel& start);
 
-/// How the height of the road ahead follows from its angle to the direction of travel; out of true planes, each drive
-/// counts the same. Without any the model stays.
-void fit_road(const std::vector<DriveSamples>& drives, GroundModel* model);
-
-/// Deviations of a whole drive, so that what was reported gets a mean square of one over the drives: each drive counts
-/// the same. Samples of another algorithm than "learned" leave them as they are.
+/// Deviations of a whole drive, so that what was reported gets a mean square of one on the typical drive, their median: on
+/// the mean, one drive over bad roads would make all others doubt themselves. Samples of another algorithm than "learned" leave them as they are.
 void fit_bias(const std::vector<DriveSamples>& drives, GroundModel* model);
 
 /// The published method's lines (algorithm "paper").

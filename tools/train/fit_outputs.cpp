@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "tools/train/fit.hpp"
@@ -49,17 +50,17 @@ VarianceScore score_drive(const Quantity& q, const DriveSamples& drive, double b
   return sum.mean();
 }
 
-/// Mean over drives of the mean squared ratio with that bias in place of the run's.
-double mean_nees(const Quantity& q, const std::vector<DriveSamples>& drives, double bias_std) {
-  double sum = 0.0;
-  int num = 0;
+/// Median over drives of the mean squared ratio with that bias in place of the run's; 0 without any drive.
+double typical_nees(const Quantity& q, const std::vector<DriveSamples>& drives, double bias_std) {
+  std::vector<double> nees;
   for (const DriveSamples& drive : drives) {
     const VarianceScore score = score_drive(q, drive, bias_std, true);
-    if (score.num == 0) continue;
-    sum += score.nees;
-    ++num;
+    if (score.num > 0) nees.push_back(score.nees);
   }
-  return num > 0 ? sum / num : 0.0;
+  if (nees.empty()) return 0.0;
+  const auto middle = nees.begin() + static_cast<std::ptrdiff_t>(nees.size() / 2);
+  std::nth_element(nees.begin(), middle, nees.end());
+  return *middle;
 }
 
 }  // namespace
@@ -70,9 +71,9 @@ void fit_bias(const std::vector<DriveSamples>& drives, GroundModel* model) {
     if (q.bias == nullptr) continue;
     double low = 0.0;
     double high = kLargestBiasStd;
-    for (int i = 0; i < kBisections && mean_nees(q, drives, 0.0) > 1.0; ++i) {
+    for (int i = 0; i < kBisections && typical_nees(q, drives, 0.0) > 1.0; ++i) {
       const double middle = 0.5 * (low + high);
-      (mean_nees(q, drives, middle) > 1.0 ? low : high) = middle;
+      (typical_nees(q, drives, middle) > 1.0 ? low : high) = middle;
     }
     model->bias.*q.bias = low;
   }

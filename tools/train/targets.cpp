@@ -5,6 +5,10 @@
 namespace plumb {
 namespace {
 
+// Without a true plane the road ahead is taken for a parabola: between 5.5 and 20 m its height follows the angle between
+// road and travel with this slope, and on drives with true planes the rest has this deviation.
+constexpr double kBendSlope = 2.5;
+constexpr double kBendRestStd = 0.011;
 constexpr double kLeastSlope = 2.0;  // of ln h against n3, for a height's error to tell a tilt
 
 bool finite(double a, double b, double c) {
@@ -12,15 +16,13 @@ bool finite(double a, double b, double c) {
 }
 
 /// Variance of the true ln h that a cue is held against.
-double reference_var(const Sample& s, const GroundModel& model, double normal_part) {
-  const double road = s.has_plane > 0.5 ? 0.0 : model.road_ln_height_std;
+double reference_var(const Sample& s, double normal_part) {
+  const double road = s.has_plane > 0.5 ? 0.0 : kBendRestStd;
   return s.truth_ln_std * s.truth_ln_std + road * road + normal_part;
 }
 
 /// Without a true plane, the height ahead is the nominal one and what the road's bend adds.
-double bend_of(const Sample& s, const GroundModel& model) {
-  return s.has_plane > 0.5 ? 0.0 : model.road_bend_slope * s.travel_ref;
-}
+double bend_of(const Sample& s) { return s.has_plane > 0.5 ? 0.0 : kBendSlope * s.travel_ref; }
 
 CueFeatures features(const Sample& s, double pixel_var) {
   return dense_features(pixel_var, s.dense_ncc, s.turn_ratio, s.step_ratio);
@@ -30,8 +32,8 @@ bool dense_row(Target target, const Sample& s, const GroundModel& model, TargetR
   if (!(s.dense_used > 0.5)) return false;
   VarianceRow& row = out->row;
   if (target == Target::kDenseHeight) {
-    row = {s.dense_err_given - bend_of(s, model), reference_var(s, model, s.dense_given_ref_var),
-           1.0, features(s, s.dense_pixel_var_given)};
+    row = {s.dense_err_given - bend_of(s), reference_var(s, s.dense_given_ref_var), 1.0,
+           features(s, s.dense_pixel_var_given)};
     out->hand_var = s.dense_hand_var_given;
   } else if (target == Target::kDenseN1) {
     row = {s.dense_err_n1, 0.0, 1.0, features(s, s.dense_pixel_var_n1)};
@@ -43,8 +45,8 @@ bool dense_row(Target target, const Sample& s, const GroundModel& model, TargetR
     if (!(std::abs(s.dense_slope_n3) > kLeastSlope)) return false;
     const double given = model.dense_height.of(features(s, s.dense_pixel_var_given));
     const double per_tilt = 1.0 / s.dense_slope_n3;
-    row = {(s.dense_err_height - bend_of(s, model)) * per_tilt,
-           (given + reference_var(s, model, 0.0)) * per_tilt * per_tilt, 1.0,
+    row = {(s.dense_err_height - bend_of(s)) * per_tilt,
+           (given + reference_var(s, 0.0)) * per_tilt * per_tilt, 1.0,
            features(s, s.dense_pixel_var_n3)};
     out->hand_var = s.dense_hand_var_n3;
     out->direct = false;
@@ -52,9 +54,9 @@ bool dense_row(Target target, const Sample& s, const GroundModel& model, TargetR
   return true;
 }
 
-bool points_row(const Sample& s, const GroundModel& model, TargetRow* out) {
+bool points_row(const Sample& s, TargetRow* out) {
   if (!(s.points_used > 0.5)) return false;
-  out->row = {s.points_err - bend_of(s, model), reference_var(s, model, s.points_ref_var), 1.0,
+  out->row = {s.points_err - bend_of(s), reference_var(s, s.points_ref_var), 1.0,
               points_features(s.points_num_inliers, s.points_spread, s.turn_ratio, s.step_ratio)};
   out->hand_var = s.points_hand_var;
   return true;
@@ -69,7 +71,7 @@ bool travel_row(const Sample& s, TargetRow* out) {
 bool row_of(Target target, const Sample& s, const GroundModel& model, TargetRow* out) {
   switch (target) {
     case Target::kPoints:
-      return points_row(s, model, out);
+      return points_row(s, out);
     case Target::kTravel:
       return travel_row(s, out);
     default:

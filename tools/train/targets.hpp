@@ -25,8 +25,8 @@ struct TargetRow {
 };
 
 /// Rows of one drive, weighted so that a long drive counts for more than a short one, but not in proportion: its frames
-/// are alike. Of `model`, road_* and dense_height (already fitted) serve frames without a true plane: there the height
-/// ahead follows from the road's bend, and the error of the height is nearly all tilt times slope.
+/// are alike. Of `model`, dense_height (already fitted) serves frames without a true plane: there the error of the
+/// height is nearly all tilt times slope.
 [[nodiscard]] std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
                                              const GroundModel& model);
 

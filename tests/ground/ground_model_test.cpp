@@ -1,0 +1,144 @@
+/// Model files: the shipped one is the built-in one; what does not fit is refused. Features, bounds, covariances.
+#include "modules/ground/ground_model_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <map>
+
+#include "modules/ground/learned_covariance.hpp"
+#include "modules/ground/plane_filter.hpp"
+#include "platform/config.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace plumb {
+namespace {
+
+const std::string kShipped = std::string(PLUMB_SOURCE_DIR) + "/config/ground_model.toml";
+
+std::map<std::string, double> numbers_of(GroundModel model) {
+  std::map<std::string, double> numbers;
+  GroundModel::visit(model, [&](const char* key, double& value, double, double, const char*) {
+    numbers[key] = value;
+  });
+  return numbers;
+}
+
+/// What load_ground_model says about the shipped file with `from` replaced by `to`.
+std::string refusal(const std::string& from, const std::string& to) {
+  std::string text = test::read_text(kShipped);
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  const test::TempFolder folder;
+  const auto path = folder.write("model.toml", text);
+  try {
+    (void)load_ground_model(path.string());
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(GroundModel, ShippedFileIsTheBuiltInOne) {
+  EXPECT_EQ(numbers_of(load_ground_model(kShipped)), numbers_of(built_in_ground_model()));
+  EXPECT_EQ(numbers_of(load_ground_model("")), numbers_of(built_in_ground_model()));
+  EXPECT_FALSE(load_ground_model(kShipped).origin.drives.empty());
+}
+
+TEST(GroundModel, TextComesBackAsTheSameModel) {
+  const GroundModel model = load_ground_model(kShipped);
+  const test::TempFolder folder;
+  const auto path = folder.write("model.toml", ground_model_text(model));
+  EXPECT_EQ(numbers_of(load_ground_model(path.string())), numbers_of(model));
+}
+
+TEST(GroundModel, FileThatDoesNotFitIsRefusedWithItsReason) {
+  EXPECT_NE(refusal("version = 2", "version = 1").find("model.toml:"), std::string::npos);
+  EXPECT_NE(refusal("version = 2", "version = 1").find("model.version = 1"), std::string::npos);
+  EXPECT_NE(refusal("plumb.ground_model", "other").find("model.schema"), std::string::npos);
+  EXPECT_NE(refusal("[travel]\nln_var = ", "[travel]\nln_vars = ").find("travel.ln_var is missing"),
+            std::string::npos);
+  EXPECT_NE(refusal("[travel]\n", "[travel]\nspeed = 1.0\n").find("not a known key"),
+            std::string::npos);
+  EXPECT_NE(refusal("[travel]\nln_var = -", "[travel]\nln_var = 9").find("is outside"),
+            std::string::npos);
+  EXPECT_NE(refusal("[travel]\nln_var = ", "[travel]\nln_var = \"x\" #").find("is not a number"),
+            std::string::npos);
+  EXPECT_THROW((void)load_ground_model("/nonexistent/model.toml"), ConfigError);
+}
+
+TEST(GroundModel, VarianceStaysBetweenItsBounds) {
+  const LogVariance model{std::log(1e-4), {1.0, 0.0, 0.0, 0.0}, 0.005, 0.1};
+  EXPECT_NEAR(model.of({}), 1e-4, 1e-12);
+  EXPECT_NEAR(model.of({std::log(4.0), 0, 0, 0}), 4e-4, 1e-12);
+  EXPECT_DOUBLE_EQ(model.of({-50.0, 0, 0, 0}), 0.005 * 0.005);
+  EXPECT_DOUBLE_EQ(model.of({500.0, 0, 0, 0}), 0.1 * 0.1);
+}
+
+TEST(GroundModel, FeaturesAreZeroInAUsualFrameAndFiniteInAnyOther) {
+  for (const double f : dense_features(1e-6, 1.0, 0.0, 0.5)) EXPECT_NEAR(f, 0.0, 1e-12);
+  for (const double f : points_features(10.0, 0.02, 0.0, 0.5)) EXPECT_NEAR(f, 0.0, 1e-12);
+  for (const double f : dense_features(0.0, -1.0, 1e9, 0.0)) EXPECT_TRUE(std::isfinite(f));
+  for (const double f : points_features(0.0, 0.0, 1e9, 1e9)) EXPECT_TRUE(std::isfinite(f));
+  EXPECT_GT(turn_feature(0.3), turn_feature(0.1));
+  EXPECT_GT(step_feature(0.1), step_feature(0.5));
+}
+
+DenseObservation road_seen() {
+  DenseObservation dense;
+  dense.ok = true;
+  dense.q = Eigen::Vector3d(0.01, 1.0, 0.02) / 1.6;
+  Eigen::Matrix3d A;
+  A << 900.0, 50.0, 300.0, 50.0, 700.0, 4000.0, 300.0, 4000.0, 26000.0;
+  dense.information = A;
+  dense.ncc = 0.95;
+  return dense;
+}
+
+TEST(LearnedCovariance, IsMadeOfTheModelsVariances) {
+  const GroundModel model = built_in_ground_model();
+  const DenseObservation dense = road_seen();
+  const CueContext context{0.01, 0.6};
+  const Eigen::Matrix3d cov = LearnedCovariance(model).dense(dense, context);
+  const Eigen::Matrix3d pixel = state_information(dense).inverse();
+  const auto var = [&](const LogVariance& v, double p) {
+    return v.of(dense_features(p, dense.ncc, context.turn_ratio, context.step_ratio));
+  };
+  EXPECT_NEAR(cov(0, 0), var(model.dense_n1, pixel(0, 0)), 1e-15);
+  EXPECT_NEAR(cov(1, 1), var(model.dense_n3, pixel(1, 1)), 1e-15);
+  // Once the normal is known, what is left of ln h is the model's.
+  const double given = 1.0 / cov.inverse()(2, 2);
+  EXPECT_NEAR(given, var(model.dense_height, 1.0 / state_information(dense)(2, 2)), 1e-9);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cov).eigenvalues().minCoeff(), 0.0);
+}
+
+TEST(LearnedCovariance, TrustsACueLessInATurnAndWithDoubt) {
+  const LearnedCovariance learned(built_in_ground_model());
+  DenseObservation dense = road_seen();
+  const double straight = learned.dense(dense, {0.0, 0.6})(2, 2);
+  EXPECT_GT(learned.dense(dense, {0.2, 0.6})(2, 2), 2.0 * straight);
+  dense.ncc = 0.6;
+  EXPECT_GT(learned.dense(dense, {0.0, 0.6})(2, 2), 1.5 * straight);
+}
+
+TEST(LearnedCovariance, CountsImagesOfTheSameRoadOnce) {
+  const LearnedCovariance learned(built_in_ground_model());
+  const double at_10_hz = learned.dense_repetition({0.0, 0.6});
+  const double at_60_hz = learned.dense_repetition({0.0, 0.1});
+  EXPECT_GE(at_10_hz, 1.0);
+  // Six times as many images say as much as one did.
+  EXPECT_NEAR(at_60_hz / at_10_hz, 6.0, 1.5);
+}
+
+TEST(WithHeightRepeated, GrowsTheHeightOnceTheNormalIsKnownAndLeavesTheTilt) {
+  const LearnedCovariance learned(built_in_ground_model());
+  const Eigen::Matrix3d once = learned.dense(road_seen(), {0.0, 0.6});
+  const Eigen::Matrix3d thrice = with_height_repeated(once, 3.0);
+  EXPECT_NEAR(once.inverse()(2, 2) / thrice.inverse()(2, 2), 3.0, 1e-9);
+  EXPECT_EQ((thrice.topLeftCorner<2, 3>()), (once.topLeftCorner<2, 3>()));
+}
+
+}  // namespace
+}  // namespace plumb

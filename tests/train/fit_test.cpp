@@ -1,0 +1,146 @@
+/// The whole fit: cues, memory, road, deviations of a drive, the published method's lines, held-out scores.
+#include "tools/train/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "modules/ground/learned_covariance.hpp"
+#include "tests/train/drawn.hpp"
+
+namespace plumb {
+namespace {
+
+std::vector<DriveSamples> three_drives(double ln_height_std = 0.01, double correlation = 0.0) {
+  return {test::draw_drive("a", 300, 1, ln_height_std, correlation),
+          test::draw_drive("b", 300, 2, ln_height_std, correlation),
+          test::draw_drive("c", 300, 3, ln_height_std, correlation)};
+}
+
+double std_of(const LogVariance& model) { return std::sqrt(model.of({})); }
+
+TEST(Fit, FindsTheDeviationsOfEveryCue) {
+  const GroundModel model = fit_cues(three_drives(), built_in_ground_model());
+  EXPECT_NEAR(std_of(model.dense_height), 0.01, 0.0015);
+  EXPECT_NEAR(std_of(model.dense_n1), 0.005, 0.0008);
+  EXPECT_NEAR(std_of(model.dense_n3), 0.004, 0.0006);
+  EXPECT_NEAR(std_of(model.points), 0.02, 0.003);
+  EXPECT_NEAR(std_of(model.travel), 0.005, 0.0008);
+}
+
+TEST(Fit, FindsHowLongErrorsStayAlike) {
+  const double correlation = 0.8;
+  const GroundModel model = fit_cues(three_drives(0.01, correlation), built_in_ground_model());
+  // A first-order process: (1 + r) / (1 - r) = 9 images share one error; the sum is cut at 15 images.
+  EXPECT_NEAR(repetition_of(model.dense_memory_ratio, 0.5), 9.0, 2.5);
+  EXPECT_LT(repetition_of(model.points_memory_ratio, 0.5), 2.0);
+}
+
+TEST(Fit, TurnsARepetitionIntoAMemoryAndBack) {
+  for (const double repetition : {1.5, 4.0, 20.0})
+    EXPECT_NEAR(repetition_of(memory_of_repetition(repetition, 0.6), 0.6), repetition, 1e-9);
+  EXPECT_EQ(memory_of_repetition(1.0, 0.6), 0.0);
+  EXPECT_NEAR(repetition_of(0.0, 0.6), 1.0, 1e-12);
+}
+
+TEST(Fit, WidensWhereDrivesDifferMoreThanTheirFrames) {
+  auto drives = three_drives();
+  for (Sample& s : drives[1].frames) s.points_err += 0.05;  // this drive's points are all 5 % off
+  const double with = std_of(fit_cues(drives, built_in_ground_model()).points);
+  const double without = std_of(fit_cues(three_drives(), built_in_ground_model()).points);
+  EXPECT_GT(with, 1.7 * without);
+}
+
+TEST(Fit, LeavesWhatSamplesSayNothingAboutAsItWas) {
+  auto drives = three_drives();
+  for (DriveSamples& drive : drives)
+    for (Sample& s : drive.frames) s.points_err = Sample::kNone;
+  GroundModel start = built_in_ground_model();
+  start.points.ln_var = -3.25;
+  EXPECT_EQ(fit_cues(drives, start).points.ln_var, -3.25);
+}
+
+TEST(Fit, TellsTiltFromHeightWhereThereIsNoTruePlane) {
+  auto drives = three_drives();
+  for (DriveSamples& drive : drives) {
+    for (Sample& s : drive.frames) {
+      s.has_plane = 0.0;
+      s.dense_err_n1 = s.dense_err_n3 = s.travel_err = Sample::kNone;
+      s.travel_ref = 0.0;
+    }
+  }
+  GroundModel start = built_in_ground_model();
+  EXPECT_NEAR(std_of(fit_cues(drives, start).dense_n3), 0.004, 0.0008);
+}
+
+TEST(Fit, ChoosesTheDeviationsOfADriveThatMakeReportedOnesTrue) {
+  auto drives = three_drives();
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal;
+  for (DriveSamples& drive : drives) {
+    drive.algorithm = "learned";
+    for (Sample& s : drive.frames) {
+      s.out_scale_err = 0.05 * normal(random);
+      s.out_scale_var = 0.03 * 0.03 + 1e-4;  // of it 1e-4 by the model of that run
+      s.out_scale_bias_var = 1e-4;
+      s.out_pitch_err = 0.001 * normal(random);
+      s.out_pitch_var = 0.01 * 0.01;
+      s.out_pitch_bias_var = 0.0;
+    }
+  }
+  GroundModel model;
+  fit_bias(drives, &model);
+  EXPECT_NEAR(model.bias.ln_scale_std, 0.04, 0.004);
+  EXPECT_EQ(model.bias.pitch_std_rad, 0.0);
+}
+
+TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
+  auto drives = three_drives();
+  for (Sample& s : drives[2].frames) s.points_err *= 3.0;
+  const auto scores = leave_one_out(drives, built_in_ground_model());
+  ASSERT_EQ(scores.size(), 3U * kTargets.size());
+  for (const HeldOutScore& s : scores) {
+    EXPECT_EQ(s.learned.num, 300) << s.drive;
+    if (s.target != Target::kPoints) continue;
+    if (s.drive == "c") {
+      EXPECT_NEAR(s.learned.nees, 9.0, 2.5);  // the others do not know of it
+    }
+    if (s.drive == "a") {
+      EXPECT_LT(s.learned.nees, 1.0);  // c widens the model
+    }
+    double square = 0.0;
+    const DriveSamples& drive = drives[static_cast<std::size_t>(s.drive[0] - 'a')];
+    for (const Sample& sample : drive.frames) square += sample.points_err * sample.points_err;
+    EXPECT_NEAR(s.hand.nees, square / 300.0 / 3.2e-3, 1e-9);
+  }
+}
+
+TEST(BeliefLine, HasBinsOfEqualCount) {
+  std::vector<Belief> beliefs;
+  for (int i = 0; i < 1000; ++i) beliefs.push_back({(7 * i % 1000) * 0.01, 1.0});
+  const auto bins = bin_beliefs(beliefs, kNumBeliefBins);
+  ASSERT_EQ(bins.size(), 100U);
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    EXPECT_EQ(bins[i].num, 10);
+    EXPECT_NEAR(bins[i].centre, 0.1 * static_cast<double>(i) + 0.045, 1e-9);
+  }
+  EXPECT_EQ(bin_beliefs({{1.0, 1.0}, {2.0, 1.0}, {3.0, 1.0}}, 100).size(), 1U);
+}
+
+TEST(BeliefLine, FindsTheLineThatErrorsWereDrawnFrom) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  std::vector<Belief> beliefs;
+  for (int i = 0; i < 20000; ++i) {
+    const double belief = 0.02 + 0.2 * i / 20000.0;
+    beliefs.push_back({belief, normal(random) * std::sqrt(0.002 + 0.02 * belief)});
+  }
+  const LinearVariance line = fit_line(bin_beliefs(beliefs, kNumBeliefBins));
+  EXPECT_NEAR(line.offset, 0.002, 3e-4);
+  EXPECT_NEAR(line.slope, 0.02, 0.003);
+  EXPECT_GT(line.most, line.mean);
+  EXPECT_LT(line.least, line.mean);
+}
+
+}  // namespace
+}  // namespace plumb
