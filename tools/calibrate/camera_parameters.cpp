@@ -9,10 +9,10 @@ namespace plumb {
 
 const std::array<CameraParameter, 4>& camera_parameters() {
   static constexpr std::array<CameraParameter, 4> kParameters{{
-      {"k1", "", "radial term of r^2 that rectification left", 0.008, 0.1, 0.006,
+      {"k1", "", "radial term of r^2 that rectification left", 0.016, 0.1, 0.006,
        [](const CameraModel& c) { return c.residual_k1; },
        [](CameraModel* c, double v) { c->residual_k1 = v; }},
-      {"k2", "", "radial term of r^4 that rectification left", 0.008, 0.1, 0.006,
+      {"k2", "", "radial term of r^4 that rectification left", 0.016, 0.1, 0.006,
        [](const CameraModel& c) { return c.residual_k2; },
        [](CameraModel* c, double v) { c->residual_k2 = v; }},
       {"focal", " px", "focal length", 4.0, 40.0, 3.0, [](const CameraModel& c) { return c.fx_px; },

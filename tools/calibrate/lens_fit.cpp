@@ -18,7 +18,10 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLostResidual_px = 1.0;
-constexpr std::size_t kBlockImages = 20;
+constexpr std::size_t kBlockImages = 10;
+constexpr double kFewestBlocks = 5.0;
+// A curvature counts when its mean over the blocks is as many times its own deviation.
+constexpr double kSureCurvature = 2.0;
 constexpr double kEndOfSearchSteps = 0.5;
 // The surface is trusted that far outside its grid, in steps.
 constexpr double kLongestMove = 1.0;
@@ -209,6 +212,21 @@ Surface surface_around(Objective* objective, const std::vector<const CameraParam
   return surface;
 }
 
+/// Whether the surface bends upwards in every direction, and the blocks agree about that in its flattest one.
+bool has_least(const Surface& surface) {
+  const auto num = static_cast<double>(surface.block_hessians.size());
+  if (num < kFewestBlocks) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(surface.hessian);
+  const Eigen::VectorXd flattest = eigen.eigenvectors().col(0);
+  const double mean = eigen.eigenvalues()(0);
+  double square = 0.0;
+  for (const Eigen::MatrixXd& H : surface.block_hessians) {
+    const double rest = flattest.dot(H * flattest) - mean;
+    square += rest * rest;
+  }
+  return mean > kSureCurvature * std::sqrt(square / (num * (num - 1.0)));
+}
+
 struct Least {
   std::vector<double> x;    ///< in steps from the stated calibration
   std::vector<double> std;  ///< in steps; NaN where the objective has no least
@@ -221,9 +239,8 @@ Least refine(Objective* objective, const std::vector<const CameraParameter*>& pa
   Least least{x, std::vector<double>(n, kNan)};
   for (int round = 0; round < kMostRounds; ++round) {
     const Surface surface = surface_around(objective, parameters, least.x);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(surface.hessian);
+    if (!has_least(surface)) return least;
     const auto num = static_cast<double>(surface.block_hessians.size());
-    if (num < 3.0 || !(eigen.eigenvalues().minCoeff() > 0.0)) return least;
     const Eigen::MatrixXd inverse = surface.hessian.inverse();
     Eigen::VectorXd move = -inverse * surface.gradient;
     const double length = move.cwiseAbs().maxCoeff();
