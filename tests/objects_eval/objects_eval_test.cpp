@@ -9,7 +9,8 @@
 #include "platform/text.hpp"
 #include "tests/objects/cuboid_scene.hpp"
 #include "tests/support/kitti_data.hpp"
-#include "tools/objects_eval/kitti_tracking.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/kitti_tracking/kitti_tracking.hpp"
 #include "tools/objects_eval/object_depth.hpp"
 
 namespace plumb {
@@ -20,14 +21,9 @@ namespace fs = std::filesystem;
 class ObjectsEvalTest : public testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::temp_directory_path() /
-            ("plumb_objects_eval_" +
-             std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(root_);
     for (const char* folder : {"calib", "label_02"}) fs::create_directories(root_ / folder);
     write("calib/0000.txt", "P2: 721.5 0 609.6 0 0 721.5 172.9 0 0 0 1 0\n");
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(root_ / name) << text;
@@ -43,7 +39,8 @@ class ObjectsEvalTest : public testing::Test {
                   -state(kYaw) - 1.5707963);
   }
 
-  fs::path root_;
+  test::TempFolder folder_;
+  fs::path root_ = folder_.path();
 };
 
 TEST_F(ObjectsEvalTest, ReadsLabelsAndTrackersOutput) {

@@ -1,47 +1,33 @@
 /// The program as a user runs it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 #include <string>
+
+#include "tests/support/run_program.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Ran {
-  int code;
-  std::string text;
+class SynthProgram : public testing::Test {
+ protected:
+  struct Ran {
+    int code;
+    std::string text;  ///< of both streams
+  };
+  Ran run(const std::string& arguments) const {
+    const auto result = plumb::test::run_program(folder_, "plumb-synth", arguments);
+    return {result.exit_code, result.out + result.err};
+  }
+  fs::path fresh(const std::string& name) const { return folder_ / ("synth_" + name); }
+  plumb::test::TempFolder folder_;
 };
 
-Ran run(const std::string& arguments) {
-  const fs::path log = fs::path(testing::TempDir()) / "synth_output.txt";
-  const int status = std::system(
-      (std::string(PLUMB_BIN_DIR) + "/plumb-synth " + arguments + " > " + log.string() + " 2>&1")
-          .c_str());
-  std::ifstream in(log);
-  std::stringstream text;
-  text << in.rdbuf();
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
-}
-
-fs::path fresh(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("synth_" + name);
-  fs::remove_all(folder);
-  return folder;
-}
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using plumb::test::read_text;
 
 int lines(const fs::path& file, bool comments) {
   std::ifstream in(file);
@@ -52,7 +38,7 @@ int lines(const fs::path& file, bool comments) {
 
 const std::string kSmall = " --size 310x94 --frames 5 --quiet --seed 9 ";
 
-TEST(SynthProgram, FilesDoNotDependOnTheNumberOfThreads) {
+TEST_F(SynthProgram, FilesDoNotDependOnTheNumberOfThreads) {
   const fs::path one = fresh("one");
   const fs::path three = fresh("three");
   ASSERT_EQ(run("--out " + one.string() + kSmall + "--threads 1 --traffic 4").code, 0);
@@ -61,17 +47,17 @@ TEST(SynthProgram, FilesDoNotDependOnTheNumberOfThreads) {
   for (const auto& entry : fs::recursive_directory_iterator(one)) {
     if (!entry.is_regular_file()) continue;
     const fs::path other = three / fs::relative(entry.path(), one);
-    EXPECT_EQ(content(entry.path()), content(other)) << other;
+    EXPECT_EQ(read_text(entry.path()), read_text(other)) << other;
     ++compared;
   }
   EXPECT_EQ(compared, 5 + 6);
   const fs::path seeded = fresh("seeded");
   ASSERT_EQ(run("--out " + seeded.string() + " --size 310x94 --frames 1 --quiet --seed 10").code,
             0);
-  EXPECT_NE(content(seeded / "image_0/000000.png"), content(one / "image_0/000000.png"));
+  EXPECT_NE(read_text(seeded / "image_0/000000.png"), read_text(one / "image_0/000000.png"));
 }
 
-TEST(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
+TEST_F(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   const fs::path out = fresh("layout");
   ASSERT_EQ(run("--out " + out.string() + kSmall + "--residual-k1 0.01 --residual-k2 -0.004").code,
             0);
@@ -81,7 +67,7 @@ TEST(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   EXPECT_EQ(image.type(), CV_8UC1);
   EXPECT_EQ(image.cols, 310);
   EXPECT_EQ(image.rows, 94);
-  const std::string calibration = content(out / "calib.txt");
+  const std::string calibration = read_text(out / "calib.txt");
   for (const char* row :
        {"P0: ", "P1: ", "P2: ", "P3: ", "residual_k1: 0.01\n", "residual_k2: -0.004\n"})
     EXPECT_NE(calibration.find(row), std::string::npos) << row;
@@ -103,7 +89,7 @@ TEST(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   EXPECT_NEAR(height, 1.65, 0.12);
 }
 
-TEST(SynthProgram, RefusesWhatItCannotDoInOneSentence) {
+TEST_F(SynthProgram, RefusesWhatItCannotDoInOneSentence) {
   const fs::path out = fresh("refused");
   for (const std::string wrong :
        {"--route nowhere", "--frames 0", "--size 12", "--rate abc", "--unknown 1", "--tunnel 5:2",
@@ -117,18 +103,18 @@ TEST(SynthProgram, RefusesWhatItCannotDoInOneSentence) {
   EXPECT_FALSE(fs::exists(out / "calib.txt"));
 }
 
-TEST(SynthProgram, KeepsAFolderThatIsNotEmptyUnlessForced) {
+TEST_F(SynthProgram, KeepsAFolderThatIsNotEmptyUnlessForced) {
   const fs::path out = fresh("kept");
   fs::create_directories(out);
   std::ofstream(out / "notes.txt") << "mine";
   EXPECT_EQ(run("--out " + out.string() + kSmall).code, 2);
   EXPECT_FALSE(fs::exists(out / "image_0"));
   EXPECT_EQ(run("--out " + out.string() + kSmall + "--force").code, 0);
-  EXPECT_EQ(content(out / "notes.txt"), "mine");
+  EXPECT_EQ(read_text(out / "notes.txt"), "mine");
   EXPECT_TRUE(fs::exists(out / "image_0/000004.png"));
 }
 
-TEST(SynthProgram, ListsItsRoutesAndMeasuresADrive) {
+TEST_F(SynthProgram, ListsItsRoutesAndMeasuresADrive) {
   const Ran routes = run("--list-routes");
   EXPECT_EQ(routes.code, 0);
   for (const char* name :

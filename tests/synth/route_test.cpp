@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/temp_folder.hpp"
+
 namespace plumb::synth {
 namespace {
 
@@ -57,8 +59,8 @@ TEST(Route, UnknownNameIsRefused) {
 }
 
 /// Writes a pose file of a drive once around a square; its height drifts by 2 m.
-std::filesystem::path write_square() {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "square.txt";
+std::filesystem::path write_square(const test::TempFolder& folder) {
+  const std::filesystem::path file = folder / "square.txt";
   std::ofstream out(file);
   double x = 0.0;
   double z = 0.0;
@@ -74,7 +76,8 @@ std::filesystem::path write_square() {
 }
 
 TEST(Route, PoseRouteFollowsTheFileAndGivesOnePlaceOneHeight) {
-  const Route route = make_pose_route(write_square(), 0, -1, 10.0, 1.68, 1);
+  const test::TempFolder folder;
+  const Route route = make_pose_route(write_square(folder), 0, -1, 10.0, 1.68, 1);
   const double travelled = route.schedule.s_m.back() - route.schedule.s_m.front();
   EXPECT_NEAR(travelled, 458.0, 12.0);
   // The first side and the fifth lie on each other.
@@ -93,7 +96,8 @@ TEST(Route, PoseRouteFollowsTheFileAndGivesOnePlaceOneHeight) {
 }
 
 TEST(Route, PoseFileErrorsNameFileAndLine) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "bad_poses.txt";
+  const test::TempFolder folder;
+  const std::filesystem::path file = folder / "bad_poses.txt";
   std::ofstream(file) << "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 zero\n";
   try {
     (void)make_pose_route(file, 0, -1, 10.0, 1.68, 1);
@@ -103,7 +107,7 @@ TEST(Route, PoseFileErrorsNameFileAndLine) {
   }
   EXPECT_THROW((void)make_pose_route("/nonexistent/poses.txt", 0, -1, 10.0, 1.68, 1),
                std::invalid_argument);
-  EXPECT_THROW((void)make_pose_route(write_square(), 10, 9000, 10.0, 1.68, 1),
+  EXPECT_THROW((void)make_pose_route(write_square(folder), 10, 9000, 10.0, 1.68, 1),
                std::invalid_argument);
 }
 
