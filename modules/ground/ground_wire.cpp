@@ -90,10 +90,15 @@ const char* rates_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   ego->distance_m = message.distance_m;
   ego->log_scale = message.log_scale;
   ego->log_scale_std = message.log_scale_std;
+  // A car that has not moved yet stands still at no known scale.
+  const bool scale_holds =
+      std::isfinite(ego->log_scale) &&
+      (is_deviation(ego->log_scale_std) ||
+       (ego->status == EgoStatus::kStandstill && std::isnan(ego->log_scale_std)));
   const bool holds = ego->velocity_ground_m_s.allFinite() && ego->rate_ground_rad_s.allFinite() &&
                      is_deviation(ego->speed_std_m_s) && is_deviation(ego->yaw_rate_std_rad_s) &&
                      !std::isinf(ego->accel_forward_m_s2) && is_deviation(ego->distance_m) &&
-                     std::isfinite(ego->log_scale) && is_deviation(ego->log_scale_std);
+                     scale_holds;
   return holds ? nullptr : "ego motion: a velocity, rate or scale is not a number";
 }
 
@@ -113,7 +118,9 @@ const char* ego_from_wire(const ego_motion_t& message, EgoOutput* ego) {
       !from_wire(message.cov_world_cam, &ego->cov_world_cam)) {
     return "ego motion: not a covariance";
   }
-  return rates_from_wire(message, ego);
+  const char* why = rates_from_wire(message, ego);
+  const bool silent = ego->status == EgoStatus::kInitializing || ego->status == EgoStatus::kLost;
+  return silent ? nullptr : why;  // its rates do not hold, and may be anything
 }
 
 }  // namespace

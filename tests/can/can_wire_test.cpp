@@ -76,6 +76,18 @@ TEST(CanWire, EgoMotionBecomesIso8855) {
   EXPECT_EQ(ego.scale_std_ratio, 0.02);
 }
 
+TEST(CanWire, ACarThatHasNotMovedYetStandsStillAtNoKnownScale) {
+  ego_motion_t m = make_ego();
+  m.log_scale_std = kNan;
+  CanEgo ego;
+  EXPECT_FALSE(from_wire(m, &ego)) << "moving, it has one";
+  m.status = ego_motion_t::STATUS_STANDSTILL;
+  ASSERT_TRUE(from_wire(m, &ego));
+  EXPECT_TRUE(std::isnan(ego.scale_std_ratio));
+  m.log_scale_std = -1.0;
+  EXPECT_FALSE(from_wire(m, &ego));
+}
+
 TEST(CanWire, HeadingIsPositiveAfterALeftTurn) {
   // Left is a negative turn about the camera's y axis, which points down.
   for (const double left_rad : {-3.0, -0.5, 0.25, 1.5, 3.0}) {

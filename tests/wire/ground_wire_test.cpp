@@ -115,6 +115,28 @@ TEST(GroundWire, RefusesAMotionThatIsNone) {
   EXPECT_EQ("", refused_ego([](auto* m) { m->accel_forward_m_s2 = kNaN; })) << "not observable";
 }
 
+TEST(GroundWire, TakesRatesThatDoNotHoldWhenTheMotionSaysSo) {
+  ground_plane_t plane{};
+  ego_motion_t ego{};
+  to_wire(test::sample_ground_output(), &plane);
+  to_wire(test::sample_ground_output(), &ego);
+  ego.log_scale = ego.velocity_ground_m_s[0] = kNaN;
+  GroundOutput read;
+  EXPECT_NE(from_wire(plane, ego, &read), nullptr);
+  for (const auto status : {ego_motion_t::STATUS_INITIALIZING, ego_motion_t::STATUS_LOST}) {
+    ego.status = status;
+    EXPECT_EQ(from_wire(plane, ego, &read), nullptr);
+    EXPECT_EQ(static_cast<std::int8_t>(read.ego.status), status);
+  }
+}
+
+TEST(GroundWire, TakesAStandstillBeforeAnyScaleIsKnown) {
+  EXPECT_EQ("", refused_ego([](auto* m) {
+              m->status = ego_motion_t::STATUS_STANDSTILL;
+              m->log_scale_std = kNaN;
+            }));
+}
+
 TEST(GroundWire, RefusesMessagesOfDifferentImages) {
   const std::string apart = "ground plane and ego motion are of different images";
   EXPECT_EQ(apart, refused_ego([](auto* m) { m->seq = 43; }));
