@@ -66,6 +66,26 @@ struct CanValues {
   double version_minor = kNotAvailable;
   double version_patch = kNotAvailable;
   double uptime_s = kNotAvailable;
+
+  // Of the list of objects, and of one object in it.
+  double object_frame_counter = 0.0;  ///< seq modulo 256 of the image searched; always a number
+  double num_objects = kNotAvailable;
+  double num_objects_left_out = kNotAvailable;
+  double object_index = 0.0;  ///< in the list; always a number
+  double object_x_m = kNotAvailable;
+  double object_y_m = kNotAvailable;
+  double object_x_std_m = kNotAvailable;
+  double object_y_std_m = kNotAvailable;
+  double object_vx_m_s = kNotAvailable;  ///< over ground
+  double object_vy_m_s = kNotAvailable;
+  double object_vx_std_m_s = kNotAvailable;
+  double object_vy_std_m_s = kNotAvailable;
+  double object_id = kNotAvailable;  ///< modulo 255
+  double object_class = kNotAvailable;
+  double object_status = kNotAvailable;
+  double object_age_s = kNotAvailable;
+  double object_ttc_s = kNotAvailable;
+  double object_width_m = kNotAvailable;
 };
 
 enum class ByteOrder : std::uint8_t { kIntel, kMotorola };
@@ -97,17 +117,20 @@ struct Message {
   const char* name = "";
   std::uint32_t id = 0;
   std::uint16_t data_id = 0;  ///< AUTOSAR E2E
-  int cycle_ms = 0;
-  bool per_frame = false;  ///< also sent between its cycles for every new camera frame
+  int cycle_ms = 0;           ///< 0: sent only with what it belongs to
+  bool per_frame = false;     ///< also sent between its cycles for every new camera frame
   std::span<const Signal> signals;
 };
 
 inline constexpr std::size_t kMessageBytes = 8;
 inline constexpr std::size_t kNumMessages = 9;
-inline constexpr int kDatabaseVersion = 1;  ///< +1 with every change of the DBC's layout
+inline constexpr std::size_t kNumObjectMessages = 4;
+inline constexpr int kDatabaseVersion = 2;  ///< +1 with every change of the DBC's layout
 
-/// Every message, in the order in which a burst sends them.
+/// Every message of ego motion and ground plane, in the order in which a burst sends them.
 [[nodiscard]] const std::array<Message, kNumMessages>& messages();
+/// The list of objects, then what is sent for each object: position, motion, state.
+[[nodiscard]] const std::array<Message, kNumObjectMessages>& object_messages();
 
 /// Nearest raw value; saturates, and NaN becomes "not available" (0 where the signal has none).
 [[nodiscard]] std::uint64_t to_raw(const Signal& signal, double physical);

@@ -4,18 +4,12 @@
 #include <utility>
 
 #include "modules/can/can_e2e.hpp"
+#include "modules/can/can_time.hpp"
 
 namespace plumb {
 namespace {
 
 constexpr int kTickMs = static_cast<int>(CanGate::kTickUs / 1'000);
-
-/// Age of `then_us`; never negative, and the largest there is when the clock went backwards.
-std::int64_t age_us(std::int64_t now_us, std::int64_t then_us) {
-  if (now_us < then_us) return INT64_MAX;
-  const auto age = static_cast<std::uint64_t>(now_us) - static_cast<std::uint64_t>(then_us);
-  return age > static_cast<std::uint64_t>(INT64_MAX) ? INT64_MAX : static_cast<std::int64_t>(age);
-}
 
 double number(CanValidity validity) { return static_cast<double>(validity); }
 double count(std::int64_t value) { return static_cast<double>(value); }

@@ -103,6 +103,49 @@ constexpr Signal kInfo[] = {
     {"Info_Uptime", 48, 16, 1.0, 0.0, &V::uptime_s},
 };
 
+constexpr Signal kObjectList[] = {
+    {"ObjList_Crc", 0, 8, 1.0, 0.0, nullptr, false},
+    {"ObjList_AliveCtr", 8, 4, 1.0, 0.0, nullptr},
+    {"ObjList_Count", 12, 4, 1.0, 0.0, &V::num_objects},
+    {"ObjList_FrameCtr", 16, 8, 1.0, 0.0, &V::object_frame_counter, false},
+    {"ObjList_NumLeftOut", 24, 8, 1.0, 0.0, &V::num_objects_left_out},
+};
+
+constexpr Signal kObjectPosition[] = {
+    {"ObjPos_Crc", 0, 8, 1.0, 0.0, nullptr, false},
+    {"ObjPos_AliveCtr", 8, 4, 1.0, 0.0, nullptr},
+    {"ObjPos_Index", 12, 4, 1.0, 0.0, &V::object_index, false},
+    {"ObjPos_FrameCtr", 16, 8, 1.0, 0.0, &V::object_frame_counter, false},
+    {"ObjPos_PosX", 24, 12, 0.05, -4.0, &V::object_x_m},
+    {"ObjPos_PosY", 36, 12, 0.05, -102.4, &V::object_y_m},
+    {"ObjPos_PosXStd", 48, 8, 0.05, 0.0, &V::object_x_std_m},
+    {"ObjPos_PosYStd", 56, 8, 0.02, 0.0, &V::object_y_std_m},
+};
+
+constexpr Signal kObjectMotion[] = {
+    {"ObjMot_Crc", 0, 8, 1.0, 0.0, nullptr, false},
+    {"ObjMot_AliveCtr", 8, 4, 1.0, 0.0, nullptr},
+    {"ObjMot_Index", 12, 4, 1.0, 0.0, &V::object_index, false},
+    {"ObjMot_FrameCtr", 16, 8, 1.0, 0.0, &V::object_frame_counter, false},
+    {"ObjMot_VelX", 24, 12, 0.05, -102.4, &V::object_vx_m_s},
+    {"ObjMot_VelY", 36, 12, 0.02, -40.96, &V::object_vy_m_s},
+    {"ObjMot_VelXStd", 48, 8, 0.05, 0.0, &V::object_vx_std_m_s},
+    {"ObjMot_VelYStd", 56, 8, 0.05, 0.0, &V::object_vy_std_m_s},
+};
+
+constexpr Signal kObjectState[] = {
+    {"ObjState_Crc", 0, 8, 1.0, 0.0, nullptr, false},
+    {"ObjState_AliveCtr", 8, 4, 1.0, 0.0, nullptr},
+    {"ObjState_Index", 12, 4, 1.0, 0.0, &V::object_index, false},
+    {"ObjState_FrameCtr", 16, 8, 1.0, 0.0, &V::object_frame_counter, false},
+    {"ObjState_Id", 24, 8, 1.0, 0.0, &V::object_id},
+    {"ObjState_Class", 32, 4, 1.0, 0.0, &V::object_class},
+    {"ObjState_Status", 36, 3, 1.0, 0.0, &V::object_status},
+    {"ObjState_Age", 39, 9, 0.1, 0.0, &V::object_age_s},
+    {"ObjState_TimeToCollision", 48, 9, 0.05, 0.0, &V::object_ttc_s},
+    {"ObjState_Width", 57, 7, 0.05, 0.0, &V::object_width_m},
+};
+
 constexpr std::array<Message, kNumMessages> kMessages = {{
     {"PLB_EgoMotion", 0x3A0, 0x3A01, 10, false, kEgoMotion},
     {"PLB_EgoMotionDetail", 0x3A1, 0x3A02, 10, false, kEgoMotionDetail},
@@ -115,8 +158,16 @@ constexpr std::array<Message, kNumMessages> kMessages = {{
     {"PLB_Info", 0x3A8, 0x3A09, 1000, false, kInfo},
 }};
 
+constexpr std::array<Message, kNumObjectMessages> kObjectMessages = {{
+    {"PLB_ObjectList", 0x3B0, 0x3A0A, 100, true, kObjectList},
+    {"PLB_ObjectPosition", 0x3B1, 0x3A0B, 0, true, kObjectPosition},
+    {"PLB_ObjectMotion", 0x3B2, 0x3A0C, 0, true, kObjectMotion},
+    {"PLB_ObjectState", 0x3B3, 0x3A0D, 0, true, kObjectState},
+}};
+
 }  // namespace
 
 const std::array<Message, kNumMessages>& messages() { return kMessages; }
+const std::array<Message, kNumObjectMessages>& object_messages() { return kObjectMessages; }
 
 }  // namespace plumb

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plumb/detection_t.hpp"
 #include "plumb/vo_motion_t.hpp"
 
 namespace plumb {
@@ -24,6 +25,10 @@ static_assert(same(CanPlaneStatus::kInitializing, ground_plane_t::STATUS_INITIAL
 static_assert(same(CanPlaneStatus::kHeld, ground_plane_t::STATUS_HELD));
 static_assert(same(CanPlaneStatus::kInvalid, ground_plane_t::STATUS_INVALID));
 
+static_assert(static_cast<int>(CanObjectStatus::kMeasured) == object_t::STATUS_MEASURED);
+static_assert(static_cast<int>(CanObjectStatus::kPredicted) == object_t::STATUS_PREDICTED);
+static_assert(static_cast<int>(CanObjectStatus::kNotLocalised) == object_t::STATUS_NOT_LOCALISED);
+
 // Reasons travel in 4 bits, all ones is taken.
 constexpr int kMaxReason = 14;
 static_assert(vo_motion_t::REASON_RESTARTED <= kMaxReason);
@@ -41,8 +46,12 @@ bool motion_is_sound(const ego_motion_t& m) {
       return false;
     }
   }
+  // A car that has not moved yet stands still at no known scale.
+  const bool scale_holds =
+      is_deviation(m.log_scale_std) ||
+      (m.status == ego_motion_t::STATUS_STANDSTILL && std::isnan(m.log_scale_std));
   return is_deviation(m.speed_std_m_s) && is_deviation(m.yaw_rate_std_rad_s) &&
-         is_deviation(m.distance_m) && is_deviation(m.log_scale_std);
+         is_deviation(m.distance_m) && scale_holds;
 }
 
 /// Heading of the optical axis about the first image's up axis, left positive.
@@ -50,6 +59,61 @@ double heading_rad(const double (&q)[4]) {
   const double forward_x = 2.0 * (q[1] * q[3] + q[0] * q[2]);  // R(0,2), to the right
   const double forward_z = 1.0 - 2.0 * (q[1] * q[1] + q[2] * q[2]);
   return std::atan2(-forward_x, forward_z);
+}
+
+/// Standard deviation, or not available.
+double deviation(double variance) {
+  return is_deviation(variance) ? std::sqrt(variance) : kNotAvailable;
+}
+
+bool place_is_sound(const object_t& o) {
+  return std::isfinite(o.position_ground_m[0]) && std::isfinite(o.position_ground_m[1]) &&
+         is_deviation(o.position_cov_m2[0][0]) && is_deviation(o.position_cov_m2[1][1]) &&
+         is_deviation(o.size_m[1]) && is_deviation(o.age_s);
+}
+
+bool from_wire(const object_t& message, CanObject* object) {
+  if (message.status < object_t::STATUS_MEASURED ||
+      message.status > object_t::STATUS_NOT_LOCALISED ||
+      message.class_id < detection_t::CLASS_UNKNOWN ||
+      message.class_id > detection_t::CLASS_CYCLIST) {
+    return false;
+  }
+  object->id = message.track_id;
+  object->object_class = static_cast<int>(message.class_id);
+  object->status = static_cast<CanObjectStatus>(message.status);
+  if (object->status == CanObjectStatus::kNotLocalised) return true;
+  if (!place_is_sound(message)) return false;
+  object->x_m = message.position_ground_m[0];
+  object->y_m = message.position_ground_m[1];
+  object->x_std_m = deviation(message.position_cov_m2[0][0]);
+  object->y_std_m = deviation(message.position_cov_m2[1][1]);
+  object->width_m = message.size_m[1];
+  object->age_s = message.age_s;
+  if (std::isfinite(message.time_to_collision_s))
+    object->time_to_collision_s = message.time_to_collision_s;
+  if (std::isfinite(message.velocity_ground_m_s[0]) &&
+      std::isfinite(message.velocity_ground_m_s[1])) {
+    object->vx_m_s = message.velocity_ground_m_s[0];
+    object->vy_m_s = message.velocity_ground_m_s[1];
+    object->vx_std_m_s = deviation(message.velocity_cov_m2_s2[0][0]);
+    object->vy_std_m_s = deviation(message.velocity_cov_m2_s2[1][1]);
+  }
+  return true;
+}
+
+double range_m(const CanObject& object) { return std::hypot(object.x_m, object.y_m); }
+
+/// Keeps the list sorted; what no longer fits counts as left out.
+void insert_nearest(const CanObject& object, CanObjects* list) {
+  std::size_t place = list->num_objects;
+  while (place > 0 && range_m(list->objects[place - 1]) > range_m(object)) --place;
+  if (list->num_objects == kMaxCanObjects) ++list->num_left_out;
+  if (place == kMaxCanObjects) return;
+  if (list->num_objects < kMaxCanObjects) ++list->num_objects;
+  for (std::size_t i = list->num_objects - 1; i > place; --i)
+    list->objects[i] = list->objects[i - 1];
+  list->objects[place] = object;
 }
 
 }  // namespace
@@ -118,12 +182,42 @@ bool from_wire(const ground_plane_t& message, CanPlane* plane) {
   return true;
 }
 
+bool from_wire(const objects_t& message, CanObjects* objects) {
+  if (message.seq < 0 || message.num_objects < 0 || message.num_refused < 0 ||
+      message.num_objects > objects_t::MAX_OBJECTS ||
+      message.objects.size() != static_cast<std::size_t>(message.num_objects)) {
+    return false;
+  }
+  *objects = CanObjects{};
+  objects->seq = message.seq;
+  objects->num_left_out = message.num_refused;
+  for (const object_t& object : message.objects) {
+    CanObject one;
+    if (!from_wire(object, &one)) return false;
+    if (one.status == CanObjectStatus::kNotLocalised) {
+      ++objects->num_left_out;
+    } else {
+      insert_nearest(one, objects);
+    }
+  }
+  return true;
+}
+
 bool CanOutput::on_ground_plane(const ground_plane_t& message, std::int64_t now_us) {
   if (!from_wire(message, &plane_)) {
     ++num_rejected_;
     return false;
   }
   gate_.on_ground_plane(plane_, now_us);
+  return true;
+}
+
+bool CanOutput::on_objects(const objects_t& message, std::int64_t now_us) {
+  if (!from_wire(message, &objects_)) {
+    ++num_rejected_;
+    return false;
+  }
+  object_gate_.on_objects(objects_, now_us);
   return true;
 }
 
@@ -139,6 +233,7 @@ bool CanOutput::on_ego_motion(const ego_motion_t& message, std::int64_t now_us) 
 void CanOutput::tick(std::int64_t now_us, CanSink& sink) {
   gate_.report(num_rejected_ + num_undecoded_, num_unsent_);
   gate_.tick(now_us, sink);
+  object_gate_.tick(now_us, sink);
 }
 
 void CanOutput::advance(std::int64_t now_us, CanSink& sink) {
@@ -154,7 +249,7 @@ void CanOutput::advance(std::int64_t now_us, CanSink& sink) {
 }
 
 void CanOutput::finish(CanSink& sink) {
-  while (is_started_ && !gate_.idle()) {
+  while (is_started_ && !(gate_.idle() && object_gate_.idle())) {
     tick(next_tick_us_, sink);
     next_tick_us_ += CanGate::kTickUs;
   }

@@ -1,4 +1,4 @@
-/// GROUND_PLANE and EGO_MOTION -> CAN frames: what plumb-can runs live and plumb-replay runs on a
+/// GROUND_PLANE, EGO_MOTION and OBJECTS -> CAN frames: what plumb-can runs live and plumb-replay runs on a
 /// log.
 ///
 /// The input is the LCM message, also in a replay: quaternions and matrices round differently, and
@@ -13,8 +13,10 @@
 #include <cstdint>
 
 #include "modules/can/can_gate.hpp"
+#include "modules/can/can_object_gate.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
+#include "plumb/objects_t.hpp"
 
 namespace plumb {
 
@@ -22,14 +24,17 @@ namespace plumb {
 /// status says holds is not a number or has a negative variance.
 [[nodiscard]] bool from_wire(const ego_motion_t& message, CanEgo* ego);
 [[nodiscard]] bool from_wire(const ground_plane_t& message, CanPlane* plane);
+/// The nearest kMaxCanObjects that have a place on the road, nearest first. One broken object breaks the message.
+[[nodiscard]] bool from_wire(const objects_t& message, CanObjects* objects);
 
 class CanOutput {
  public:
-  explicit CanOutput(const CanConfig& config) : gate_(config) {}
+  explicit CanOutput(const CanConfig& config) : gate_(config), object_gate_(config) {}
 
   /// False when the message was rejected (and counted).
   bool on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
   bool on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
+  bool on_objects(const objects_t& message, std::int64_t now_us);
 
   /// One tick of the caller's timer.
   void tick(std::int64_t now_us, CanSink& sink);
@@ -48,13 +53,19 @@ class CanOutput {
   }
   [[nodiscard]] std::int64_t num_rejected() const { return num_rejected_; }
   [[nodiscard]] const CanCounters& counters() const { return gate_.counters(); }
+  /// Lists of objects that came faster than they could be sent.
+  [[nodiscard]] std::int64_t num_objects_overflowed() const {
+    return object_gate_.num_overflowed();
+  }
 
  private:
   static constexpr std::int64_t kMaxStepUs = 10'000'000;
 
   CanGate gate_;
+  CanObjectGate object_gate_;
   CanEgo ego_;
   CanPlane plane_;
+  CanObjects objects_;
   std::int64_t num_rejected_ = 0;
   std::int64_t num_undecoded_ = 0;
   std::int64_t num_unsent_ = 0;

@@ -1,4 +1,4 @@
-/// GROUND_PLANE, EGO_MOTION -> can -> CAN interface, trace file
+/// GROUND_PLANE, EGO_MOTION, OBJECTS -> can -> CAN interface, trace file
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <stdexcept>
@@ -54,8 +54,12 @@ class CanProcess {
                [this](const ground_plane_t& message) {
                  return output_.on_ground_plane(message, monotonic_us()) ? nullptr : "ground plane";
                }),
-        ego_(process.bus(), kEgoMotion, Input::kPeriodic, [this](const ego_motion_t& message) {
-          return output_.on_ego_motion(message, monotonic_us()) ? nullptr : "ego motion";
+        ego_(process.bus(), kEgoMotion, Input::kPeriodic,
+             [this](const ego_motion_t& message) {
+               return output_.on_ego_motion(message, monotonic_us()) ? nullptr : "ego motion";
+             }),
+        objects_(process.bus(), kObjects, Input::kOccasional, [this](const objects_t& message) {
+          return output_.on_objects(message, monotonic_us()) ? nullptr : "objects";
         }) {
     process.loop().every(CanGate::kTickUs, [this] { tick(monotonic_us()); });
     if (sinks.trace) process.loop().every(kFlushUs, [this] { sinks_.trace->flush(); });
@@ -71,7 +75,8 @@ class CanProcess {
     output_.tick(now_us, sinks_);
     counters.num_published = sinks_.num_sent();
     counters.num_unsent = sinks_.num_unsent();
-    counters.num_dropped = output_.counters().num_missed + output_.counters().num_overflowed;
+    counters.num_dropped = output_.counters().num_missed + output_.counters().num_overflowed +
+                           output_.num_objects_overflowed();
     if (sinks_.trouble() != told_) tell(sinks_.trouble());
   }
 
@@ -88,6 +93,7 @@ class CanProcess {
   CanOutput output_;
   Subscriber<ground_plane_t> plane_;
   Subscriber<ego_motion_t> ego_;
+  Subscriber<objects_t> objects_;
   std::int64_t last_tick_us_ = 0;
   std::string told_;
 };
@@ -96,9 +102,9 @@ class CanProcess {
 }  // namespace plumb
 
 int main(int argc, char** argv) {
-  plumb::Process process({"can",
-                          "Ego motion and ground plane onto a CAN bus, as plumbline.dbc says.",
-                          plumb::kHealthCan});
+  plumb::Process process(
+      {"can", "Ego motion, ground plane and objects onto a CAN bus, as plumbline.dbc says.",
+       plumb::kHealthCan});
   std::string interface, path;
   process.declare_options([&](CLI::App& app) {
     app.add_option("--interface", interface, "CAN interface, for example can0");

@@ -23,6 +23,11 @@ TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
   ego_motion_t ego{};
   plane.height_m = 1.65;
   ego.q_world_cam[0] = 1.0;
+  objects_t objects{};
+  objects.num_objects = 20;
+  objects.objects.resize(20);
+  for (int i = 0; i < 20; ++i)
+    objects.objects[static_cast<std::size_t>(i)].position_ground_m[0] = 50.0 - i;
   const std::int64_t before = test::g_num_mallocs;
   for (int i = 0; i < 10'000; ++i) {
     plane.seq = ego.seq = i % 50 == 0 ? i + 7 : i;
@@ -31,11 +36,13 @@ TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
     output.advance(i * 20'000, sink);
     output.on_ground_plane(plane, i * 20'000);
     output.on_ego_motion(ego, i * 20'000);
+    objects.seq = i;
+    EXPECT_TRUE(output.on_objects(objects, i * 20'000));
   }
   output.finish(sink);
   EXPECT_EQ(test::g_num_mallocs, before);
   EXPECT_GT(output.num_rejected(), 0);
-  EXPECT_GT(sink.num_frames, 100'000);
+  EXPECT_GT(sink.num_frames, 300'000);
 
   const std::string text(100, static_cast<char>(sink.num_frames));  // the counter works
   EXPECT_GT(test::g_num_mallocs, before);

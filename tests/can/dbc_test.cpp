@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <vector>
 
 #include "modules/can/can_codec.hpp"
 #include "modules/can/can_gate.hpp"
+#include "plumb/detection_t.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
+#include "plumb/object_t.hpp"
 #include "plumb/vo_motion_t.hpp"
 #include "tests/can/dbc.hpp"
 
@@ -15,13 +18,19 @@ namespace {
 
 class DbcFile : public ::testing::Test {
  protected:
+  /// Of both tables.
+  static std::vector<Message> all_messages() {
+    std::vector<Message> all(messages().begin(), messages().end());
+    all.insert(all.end(), object_messages().begin(), object_messages().end());
+    return all;
+  }
   test::Dbc dbc_ = test::read_dbc(PLUMB_SOURCE_DIR "/config/plumbline.dbc");
 
   /// Calls `check(row of the C++ table, row of the DBC)` for every signal.
   template <typename Check>
   void for_each_signal(Check check) {
-    ASSERT_EQ(dbc_.messages.size(), messages().size());
-    for (const Message& message : messages()) {
+    ASSERT_EQ(dbc_.messages.size(), all_messages().size());
+    for (const Message& message : all_messages()) {
       for (const Signal& signal : message.signals) {
         SCOPED_TRACE(signal.name);
         const test::DbcSignal* said = dbc_.messages[message.id].find(signal.name);
@@ -39,8 +48,8 @@ class DbcFile : public ::testing::Test {
 };
 
 TEST_F(DbcFile, HasTheMessagesOfTheTableAndNoOthers) {
-  ASSERT_EQ(dbc_.messages.size(), messages().size());
-  for (const Message& message : messages()) {
+  ASSERT_EQ(dbc_.messages.size(), all_messages().size());
+  for (const Message& message : all_messages()) {
     const test::DbcMessage& said = dbc_.messages[message.id];
     EXPECT_EQ(said.name, message.name);
     EXPECT_EQ(said.bytes, static_cast<int>(kMessageBytes));
@@ -85,17 +94,17 @@ TEST_F(DbcFile, NamesNotAvailableForEverySignalThatHasIt) {
 
 TEST_F(DbcFile, StatesCyclesSendTypesAndDataIds) {
   std::set<std::string> data_ids;
-  for (const Message& message : messages()) {
+  for (const Message& message : all_messages()) {
     auto& said = dbc_.messages[message.id].attributes;
     EXPECT_EQ(said["GenMsgCycleTime"], std::to_string(message.cycle_ms));
-    EXPECT_EQ(said["GenMsgSendType"], message.per_frame ? "1" : "0");
+    EXPECT_EQ(said["GenMsgSendType"], message.cycle_ms == 0 ? "2" : message.per_frame ? "1" : "0");
     EXPECT_EQ(said["E2EDataID"], std::to_string(message.data_id));
     EXPECT_EQ(said["E2EProfile"], "PROFILE_11A");
     EXPECT_EQ(said["VFrameFormat"], "0");
     EXPECT_EQ(message.cycle_ms % (CanGate::kTickUs / 1000), 0) << "a cycle is a number of ticks";
     data_ids.insert(said["E2EDataID"]);
   }
-  EXPECT_EQ(data_ids.size(), messages().size());
+  EXPECT_EQ(data_ids.size(), all_messages().size());
 }
 
 TEST_F(DbcFile, EverySignalSaysWhatItIs) {
@@ -132,6 +141,21 @@ TEST_F(DbcFile, EnumerationsHaveTheNumbersOfTheMessages) {
   EXPECT_EQ(plane.at(ground_plane_t::STATUS_HELD), "HELD");
   EXPECT_EQ(plane.at(ground_plane_t::STATUS_INVALID), "INVALID");
   EXPECT_EQ(values("PLB_Status", "Status_GroundStatus"), plane);
+}
+
+TEST_F(DbcFile, ObjectsHaveTheNumbersOfTheMessages) {
+  const auto& object_class = values("PLB_ObjectState", "ObjState_Class");
+  EXPECT_EQ(object_class.at(detection_t::CLASS_UNKNOWN), "UNKNOWN");
+  EXPECT_EQ(object_class.at(detection_t::CLASS_CAR), "CAR");
+  EXPECT_EQ(object_class.at(detection_t::CLASS_VAN), "VAN");
+  EXPECT_EQ(object_class.at(detection_t::CLASS_TRUCK), "TRUCK");
+  EXPECT_EQ(object_class.at(detection_t::CLASS_BUS), "BUS");
+  EXPECT_EQ(object_class.at(detection_t::CLASS_PEDESTRIAN), "PEDESTRIAN");
+  EXPECT_EQ(object_class.at(detection_t::CLASS_CYCLIST), "CYCLIST");
+  const auto& status = values("PLB_ObjectState", "ObjState_Status");
+  EXPECT_EQ(status.at(object_t::STATUS_MEASURED), "MEASURED");
+  EXPECT_EQ(status.at(object_t::STATUS_PREDICTED), "PREDICTED");
+  EXPECT_EQ(status.at(object_t::STATUS_NOT_LOCALISED), "NOT_LOCALISED");
 }
 
 TEST_F(DbcFile, ReasonsHaveTheNumbersOfTheMessages) {

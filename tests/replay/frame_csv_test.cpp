@@ -83,6 +83,8 @@ TEST(FrameCsv, AnImageThatWasRefusedHasItsReasonAndNothingElse) {
   record.seq = 3;
   record.refused = "JPEG is cut off";
   EXPECT_EQ(cell(record, "refused"), "JPEG is cut off");
+  record.refused = "neither here, nor there";
+  EXPECT_EQ(cell(record, "refused"), "neither here; nor there") << "a comma would begin a cell";
   for (const char* name : {"vo_status", "plane_status", "height_m", "ego_status", "x_m"}) {
     EXPECT_EQ(cell(record, name), "") << name;
   }

@@ -7,6 +7,7 @@
 #include "platform/channels.hpp"
 #include "platform/log_file.hpp"
 #include "plumb/camera_calibration_t.hpp"
+#include "plumb/detections_t.hpp"
 #include "plumb/ground_truth_t.hpp"
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/kitti_folder.hpp"
@@ -50,6 +51,50 @@ class Convert : public ::testing::Test {
   }
   test::TempFolder folder_;
 };
+
+TEST_F(Convert, PutsBoxesBehindTheImageTheyWereSeenIn) {
+  test::write_odometry(folder_, 3, 100);
+  const auto labels = folder_.write("boxes.txt",
+                                    "100 7 Car 0 0 0 10 20 40 50 1.5 1.7 4 1 1.65 20 0\n"
+                                    "102 7 Car 0 0 0 12 20 44 52 1.5 1.7 4 1 1.65 19 0\n"
+                                    "102 8 Van -1 -1 -10 50 20 70 40 -1 -1 -1 -1 -1 -1 -1 0.8\n"
+                                    "999 9 Car 0 0 0 12 20 44 52 1.5 1.7 4 1 1.65 19 0\n");
+  SequenceOptions options;
+  options.folder = folder_ / "seq";
+  const ConvertResult result =
+      convert(read_sequence(options), {folder_ / "out.lcm", false, labels});
+  EXPECT_EQ(result.num_detections, 3);
+  const auto events = log();
+  std::vector<detections_t> found;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].channel != kDetections.name) continue;
+    EXPECT_EQ(events[i - 1].channel, kCamera.name);
+    EXPECT_EQ(events[i - 1].log_us, events[i].log_us);
+    ASSERT_TRUE(decode_bounded(events[i].data, &found.emplace_back()));
+    EXPECT_EQ(found.back().utime, events[i].log_us);
+  }
+  ASSERT_EQ(found.size(), 3U) << "one per image, also where nothing was seen";
+  EXPECT_EQ(found[0].seq, 100);
+  EXPECT_EQ(found[0].num_detections, 1);
+  EXPECT_EQ(found[1].num_detections, 0);
+  ASSERT_EQ(found[2].num_detections, 2);
+  EXPECT_EQ(found[2].detections[0].track_id, 7);
+  EXPECT_EQ(found[2].detections[0].box_px[2], 44.0F);
+  EXPECT_EQ(found[2].detections[1].class_id, detection_t::CLASS_VAN);
+}
+
+TEST_F(Convert, ABadBoxFileIsNamedBeforeALogIsBegun) {
+  test::write_odometry(folder_, 3, 100);
+  const auto labels = folder_.write("boxes.txt", "100 7 Car 0 0 0 10 20 wide 50\n");
+  SequenceOptions options;
+  options.folder = folder_ / "seq";
+  const Sequence sequence = read_sequence(options);
+  expect_contains(input_error_of([&] {
+                    (void)convert(sequence, {folder_ / "out.lcm", false, labels});
+                  }),
+                  "boxes.txt:1: column 9: 'wide'");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.lcm"));
+}
 
 TEST_F(Convert, WritesEveryImageBitForBitWithItsNumberAndTime) {
   test::write_odometry(folder_, 4, 100);

@@ -1,5 +1,6 @@
 #include "tools/draw/figures.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "platform/input_error.hpp"
@@ -43,6 +44,25 @@ FrameFigures figures_of(const CsvTable& table, std::size_t row) {
 }
 
 }  // namespace
+
+void read_objects(const std::filesystem::path& csv, std::map<std::int64_t, FrameFigures>* figures) {
+  const CsvTable table(csv);
+  table.require(
+      {"seq", "class", "status", "x_m", "y_m", "yaw_rad", "length_m", "width_m", "height_m"});
+  for (std::size_t row = 0; row < table.num_rows(); ++row) {
+    const auto cell = [&](const char* column) { return table.number(row, column); };
+    const auto seq = cell("seq");
+    if (!seq) throw InputError(table.at(row) + "seq is empty");
+    const auto frame = figures->find(static_cast<std::int64_t>(*seq));
+    const auto x = cell("x_m"), y = cell("y_m"), yaw = cell("yaw_rad");
+    const auto length = cell("length_m"), width = cell("width_m"), height = cell("height_m");
+    if (frame == figures->end() || !x || !y || !yaw || !length || !width || !height) continue;
+    ObjectFigure object{{*x, *y}, *yaw, {*length, *width, *height}, false, ""};
+    object.measured = text_of(table, row, "status") == "measured";
+    object.label = format("%s %.0f m", text_of(table, row, "class").c_str(), std::hypot(*x, *y));
+    frame->second.objects.push_back(std::move(object));
+  }
+}
 
 std::map<std::int64_t, FrameFigures> read_figures(const std::filesystem::path& csv) {
   const CsvTable table(csv);

@@ -25,6 +25,7 @@ namespace {
 struct Options {
   std::string log;
   std::string csv;
+  std::string objects;
   std::string out;
   std::vector<std::int64_t> frames;
   int num_pictures = 4;
@@ -47,6 +48,7 @@ class Painter {
  public:
   explicit Painter(const Options& options)
       : options_(options), figures_(read_figures(options.csv)), wanted_(options.frames) {
+    if (!options.objects.empty()) read_objects(options.objects, &figures_);
     if (wanted_.empty()) wanted_ = spread(figures_, options.num_pictures);
     std::filesystem::create_directories(options.out);
   }
@@ -127,9 +129,11 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   plumb::Options options;
-  CLI::App app("Road grid, horizon and figures drawn onto the frames of a log", "plumb-draw");
+  CLI::App app("Road grid, horizon, objects and figures drawn onto the frames of a log",
+               "plumb-draw");
   app.add_option("LOG", options.log, "LCM log with the images")->required();
   app.add_option("CSV", options.csv, "what plumb-replay --csv wrote for it")->required();
+  app.add_option("--objects", options.objects, "what plumb-replay --objects wrote for it");
   app.add_option("--out", options.out, "folder for the pictures")->required();
   app.add_option("--frames", options.frames, "sequence numbers to draw [spread over the drive]")
       ->delimiter(',');

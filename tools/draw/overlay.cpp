@@ -1,6 +1,8 @@
 #include "tools/draw/overlay.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 namespace plumb {
@@ -10,7 +12,10 @@ const cv::Scalar kRoadColour(80, 220, 120);
 const cv::Scalar kHorizonColour(60, 160, 255);
 const cv::Scalar kPathColour(255, 200, 80);
 const cv::Scalar kTextColour(255, 255, 255);
+const cv::Scalar kObjectColour(90, 90, 255);
+const cv::Scalar kPredictedColour(200, 120, 200);
 constexpr double kNearest_m = 4.0;
+constexpr double kNearestCorner_m = 0.5;
 constexpr double kFarthest_m = 40.0;
 constexpr double kHalfWidth_m = 3.6;
 
@@ -55,6 +60,46 @@ void draw_road(cv::Mat* picture, const CameraModel& camera, const RoadPlane& pla
            cv::LINE_AA);
 }
 
+/// Corners in cam: the underside, then the top, both in order around the box.
+std::array<Eigen::Vector3d, 8> corners_of(const ObjectFigure& object, const RoadPlane& plane) {
+  const Eigen::Vector3d& down = plane.normal_cam;
+  const Eigen::Vector3d ahead =
+      (Eigen::Vector3d::UnitZ() - down.z() * down).normalized();  // optical axis, along the road
+  const Eigen::Vector3d left = ahead.cross(down);
+  const Eigen::Vector3d origin = plane.height_m * down;
+  const Eigen::Rotation2Dd turn(object.yaw_rad);
+  std::array<Eigen::Vector3d, 8> corners;
+  const double around[4][2] = {{0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}, {-0.5, 0.5}};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto& share = around[i % 4];
+    const Eigen::Vector2d place =
+        object.place_m +
+        turn * Eigen::Vector2d(share[0] * object.size_m.x(), share[1] * object.size_m.y());
+    const double up_m = i < 4 ? 0.0 : object.size_m.z();
+    corners[i] = origin + place.x() * ahead + place.y() * left - up_m * down;
+  }
+  return corners;
+}
+
+void draw_object(cv::Mat* picture, const CameraModel& camera, const RoadPlane& plane,
+                 const ObjectFigure& object) {
+  const std::array<Eigen::Vector3d, 8> corners = corners_of(object, plane);
+  cv::Point2d px[8];
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i].z() < kNearestCorner_m) return;
+    px[i] = to_point(camera.project(corners[i]));
+  }
+  const cv::Scalar& colour = object.measured ? kObjectColour : kPredictedColour;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4;
+    cv::line(*picture, px[i], px[next], colour, 1, cv::LINE_AA);
+    cv::line(*picture, px[i + 4], px[next + 4], colour, 1, cv::LINE_AA);
+    cv::line(*picture, px[i], px[i + 4], colour, 1, cv::LINE_AA);
+  }
+  cv::putText(*picture, object.label, px[7] + cv::Point2d(0, -4), cv::FONT_HERSHEY_SIMPLEX, 0.4,
+              colour, 1, cv::LINE_AA);
+}
+
 /// Path seen from above in the upper right corner, forward is up.
 void draw_path(cv::Mat* picture, const std::vector<Eigen::Vector2d>& path_m) {
   if (path_m.size() < 2) return;
@@ -90,6 +135,10 @@ cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera, const Frame
   cv::Mat picture;
   cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
   if (figures.plane) draw_road(&picture, camera, *figures.plane);
+  if (figures.plane) {
+    for (const ObjectFigure& object : figures.objects)
+      draw_object(&picture, camera, *figures.plane, object);
+  }
   draw_path(&picture, figures.path_m);
   int row = 22;
   for (const std::string& line : figures.lines) {

@@ -1,4 +1,4 @@
-/// What the module knows, drawn onto the frame it knows it from: road grid, horizon, figures, path.
+/// What the module knows, drawn onto the frame it knows it from: road grid, horizon, objects, figures, path.
 ///
 /// Frames  cam: x right, y down, z forward; plane normal points DOWN, n . X = h.
 #pragma once
@@ -18,9 +18,19 @@ struct RoadPlane {
   double height_m = 0.0;
 };
 
+/// A box that stands on the road. ground: x forward, y left, z up, on the road under the camera.
+struct ObjectFigure {
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< middle of the footprint
+  double yaw_rad = 0.0;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< length, width, height
+  bool measured = false;                             ///< else predicted
+  std::string label;
+};
+
 struct FrameFigures {
   std::optional<RoadPlane> plane;       ///< absent while it does not hold
   std::vector<Eigen::Vector2d> path_m;  ///< (x right, z forward) of the world frame, oldest first
+  std::vector<ObjectFigure> objects;    ///< drawn where the plane holds
   std::vector<std::string> lines;       ///< text, top to bottom
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/imgcodecs.hpp>
 
+#include "modules/detections/detections_wire.hpp"
 #include "modules/imaging/image_wire.hpp"
 #include "platform/channels.hpp"
 #include "platform/input_error.hpp"
@@ -10,6 +11,7 @@
 #include "platform/log_file.hpp"
 #include "platform/text.hpp"
 #include "plumb/ground_truth_t.hpp"
+#include "tools/kitti_tracking/kitti_tracking.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
 
@@ -21,8 +23,12 @@ constexpr int kJpegQuality = 95;
 
 class Converter {
  public:
-  Converter(const Sequence& sequence, const ConvertOptions& options, const cv::Mat& first_image)
-      : options_(options), camera_(sequence.camera), log_(options.out.string()) {
+  Converter(const Sequence& sequence, const ConvertOptions& options, const cv::Mat& first_image,
+            std::vector<TrackingRow> boxes)
+      : options_(options),
+        camera_(sequence.camera),
+        boxes_(std::move(boxes)),
+        log_(options.out.string()) {
     camera_.width_px = first_image.cols;
     camera_.height_px = first_image.rows;
   }
@@ -39,6 +45,7 @@ class Converter {
     }
     if (frame.T_world_cam || frame.plane) write_truth(frame);
     write_image(frame, image);
+    if (!options_.detections.empty()) write_detections(frame);
     if (result_.num_frames++ == 0) first_us_ = frame.capture_us;
     result_.duration_s = 1e-6 * static_cast<double>(frame.capture_us - first_us_);
   }
@@ -71,6 +78,15 @@ class Converter {
     write(frame.capture_us, kCamera, image_);
   }
 
+  /// An image without boxes gets an empty message: the detector looked.
+  void write_detections(const SequenceFrame& frame) {
+    DetectionFrame detections = detections_of_frame(boxes_, static_cast<int>(frame.seq));
+    detections.capture_us = frame.capture_us;
+    result_.num_detections += static_cast<std::int64_t>(detections.detections.size());
+    to_wire(detections, &detections_);
+    write(frame.capture_us, kDetections, detections_);
+  }
+
   void write_truth(const SequenceFrame& frame) {
     ground_truth_t truth{};
     truth.utime = frame.capture_us;
@@ -96,11 +112,13 @@ class Converter {
 
   const ConvertOptions& options_;
   CameraModel camera_;
+  std::vector<TrackingRow> boxes_;
   LogWriter log_;
   ConvertResult result_;
   std::int64_t first_us_ = 0;
   std::int64_t calibration_us_ = 0;
   image_t image_;
+  detections_t detections_{};
   std::vector<std::uint8_t> jpeg_;
   std::vector<std::uint8_t> buffer_;
 };
@@ -126,7 +144,9 @@ cv::Mat load_first(const Sequence& sequence) {
 
 ConvertResult convert(const Sequence& sequence, const ConvertOptions& options) {
   cv::Mat image = load_first(sequence);
-  Converter converter(sequence, options, image);
+  std::vector<TrackingRow> boxes;
+  if (!options.detections.empty()) boxes = read_tracking(options.detections);
+  Converter converter(sequence, options, image, std::move(boxes));
   const auto total = static_cast<std::int64_t>(sequence.frames.size());
   Progress progress("converting", "frames", total);
   try {

@@ -39,6 +39,8 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
                   "true poses [SEQ_DIR/poses.txt, or a raw drive's oxts]");
   app->add_option("--planes", sequence->planes,
                   "true ground planes [SEQ_DIR/gt_ground_plane*.txt]");
+  app->add_option("--detections", convert->detections,
+                  "boxes: KITTI tracking labels, or a tracker's output [SEQ_DIR/label_02.txt]");
   app->add_option(
          "--residual-k1", sequence->residual_k1,
          "radial term of r^2 left in the rectified images [calib.txt's residual_k1, else 0.0256]")
@@ -54,16 +56,22 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
   app->add_option("--end", sequence->end, "last frame number")->check(CLI::NonNegativeNumber);
 }
 
-int run(const plumb::SequenceOptions& options, const plumb::ConvertOptions& convert_options) {
+int run(const plumb::SequenceOptions& options, plumb::ConvertOptions convert_options) {
   plumb::catch_stop_signals();
   const plumb::Sequence sequence = plumb::read_sequence(options);
+  const std::filesystem::path labels = options.folder / "label_02.txt";
+  if (convert_options.detections.empty() && std::filesystem::exists(labels)) {
+    convert_options.detections = labels;
+    std::cerr << "plumb-kitti2lcm: boxes from " << labels.string() << "\n";
+  }
   for (const std::string& note : sequence.notes) std::cerr << "plumb-kitti2lcm: " << note << "\n";
   const plumb::ConvertResult result = plumb::convert(sequence, convert_options);
   std::cout << plumb::format(
-      "%s: %lld frames, %.1f s, %.1f MB; %lld with a pose, %lld with a plane%s\n",
+      "%s: %lld frames, %.1f s, %.1f MB; %lld with a pose, %lld with a plane; %lld boxes%s\n",
       convert_options.out.c_str(), static_cast<long long>(result.num_frames), result.duration_s,
       1e-6 * static_cast<double>(result.log_bytes), static_cast<long long>(result.num_poses),
-      static_cast<long long>(result.num_planes), result.stopped ? "; stopped early" : "");
+      static_cast<long long>(result.num_planes), static_cast<long long>(result.num_detections),
+      result.stopped ? "; stopped early" : "");
   return 0;
 }
 

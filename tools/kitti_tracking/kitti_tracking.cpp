@@ -1,4 +1,4 @@
-#include "tools/objects_eval/kitti_tracking.hpp"
+#include "tools/kitti_tracking/kitti_tracking.hpp"
 
 #include <cmath>
 #include <limits>

@@ -10,7 +10,7 @@
 #include "modules/detections/foot_point.hpp"
 #include "modules/objects/objects.hpp"
 #include "platform/text.hpp"
-#include "tools/objects_eval/kitti_tracking.hpp"
+#include "tools/kitti_tracking/kitti_tracking.hpp"
 
 namespace plumb {
 namespace {

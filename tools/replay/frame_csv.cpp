@@ -1,48 +1,13 @@
 #include "tools/replay/frame_csv.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <limits>
-
 #include "platform/text.hpp"
+#include "tools/replay/csv_row.hpp"
 #include "tools/replay/names.hpp"
 
 namespace plumb {
 namespace {
 
-/// A row under construction: cells are added under the names that the header lists in the same
-/// order.
-class Row {
- public:
-  explicit Row(bool names_only) : names_only_(names_only) {}
-
-  void add(const std::string& name, const char* text) { cell(name, text == nullptr ? "" : text); }
-  void add(const std::string& name, std::int64_t value) { cell(name, std::to_string(value)); }
-  /// Empty when the value does not hold or is not finite.
-  void add(const std::string& name, double value, bool holds = true) {
-    char text[32] = "";
-    if (holds && std::isfinite(value))
-      *std::to_chars(text, text + sizeof text - 1, value).ptr = '\0';
-    cell(name, text);
-  }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  void cell(const std::string& name, const std::string& value) {
-    if (!text_.empty() || num_cells_ > 0) text_ += ',';
-    text_ += names_only_ ? name : value;
-    ++num_cells_;
-  }
-  bool names_only_;
-  int num_cells_ = 0;
-  std::string text_;
-};
-
-double deviation(double variance) {
-  return variance >= 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::quiet_NaN();
-}
-
-void add_vo(const vo_motion_t& vo, bool holds, Row* row) {
+void add_vo(const vo_motion_t& vo, bool holds, CsvRow* row) {
   row->add("vo_status", holds ? vo_status_name(vo.status) : "");
   row->add("vo_reason", holds ? vo_reason_name(vo.reason) : "");
   row->add("scale_epoch", static_cast<std::int64_t>(vo.scale_epoch));
@@ -58,7 +23,7 @@ void add_vo(const vo_motion_t& vo, bool holds, Row* row) {
   for (int i = 0; i < 3; ++i) row->add(format("vo_t_%s", axes[i]), vo.t_prev_cam[i], holds);
 }
 
-void add_plane(const ground_plane_t& plane, bool answered, Row* row) {
+void add_plane(const ground_plane_t& plane, bool answered, CsvRow* row) {
   const bool holds = answered && (plane.status == ground_plane_t::STATUS_OK ||
                                   plane.status == ground_plane_t::STATUS_HELD);
   row->add("plane_status", answered ? plane_status_name(plane.status) : "");
@@ -86,7 +51,7 @@ void add_plane(const ground_plane_t& plane, bool answered, Row* row) {
   }
 }
 
-void add_ego(const ego_motion_t& ego, bool answered, Row* row) {
+void add_ego(const ego_motion_t& ego, bool answered, CsvRow* row) {
   const bool holds = answered && ego.status != ego_motion_t::STATUS_INITIALIZING &&
                      ego.status != ego_motion_t::STATUS_LOST;
   row->add("ego_status", answered ? ego_status_name(ego.status) : "");
@@ -118,7 +83,7 @@ std::string stage_text(const StageTimer& timer) {
   return text;
 }
 
-void add_times(const FrameRecord& record, Row* row) {
+void add_times(const FrameRecord& record, CsvRow* row) {
   const bool ran = record.vo != nullptr && record.vo_timer != nullptr;
   const auto total_us = [ran](const StageTimer* timer) {
     return ran ? std::round(timer->total().last_us) : 0.0;
@@ -133,7 +98,7 @@ std::string build(const FrameRecord& record, bool with_times, bool names_only) {
   static const vo_motion_t kNoMotion{};
   static const ground_plane_t kNoPlane{};
   static const ego_motion_t kNoEgo{};
-  Row row(names_only);
+  CsvRow row(names_only);
   row.add("seq", record.seq);
   row.add("utime", record.capture_us);
   row.add("refused", record.refused);

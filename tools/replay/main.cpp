@@ -1,5 +1,5 @@
-/// plumb-replay: a log through vo, ground and can in one process; poses, one line per frame, CAN
-/// trace.
+/// plumb-replay: a log through vo, ground, objects and can in one process; poses, one line per frame and per object,
+/// CAN trace.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "platform/log_file.hpp"
 #include "platform/text.hpp"
 #include "tools/replay/frame_csv.hpp"
+#include "tools/replay/objects_csv.hpp"
 #include "tools/replay/pose_track.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/replay/summary.hpp"
@@ -34,7 +35,7 @@ Examples
   plumb-replay drive.lcm --config vehicle.toml --seed 7 --poses drive.txt)";
 
 struct Arguments {
-  std::string log, poses, csv, can, config;
+  std::string log, poses, csv, objects, can, config;
   std::uint64_t seed = 1;
   bool no_times = false;
 };
@@ -43,8 +44,12 @@ struct Arguments {
 class Outputs {
  public:
   explicit Outputs(const Arguments& arguments)
-      : with_times_(!arguments.no_times), poses_(arguments.poses), csv_(arguments.csv) {
+      : with_times_(!arguments.no_times),
+        poses_(arguments.poses),
+        csv_(arguments.csv),
+        objects_(arguments.objects) {
     csv_.row(frame_csv_header(with_times_));
+    objects_.row(objects_csv_header());
     if (arguments.can.empty()) return;
     can_.emplace(arguments.can, "can0");
     check_can();
@@ -57,9 +62,15 @@ class Outputs {
     check_can();
   }
 
+  void add(const objects_t& objects) {
+    if (!objects_.wanted()) return;
+    for (const object_t& object : objects.objects) objects_.row(objects_csv_row(objects, object));
+  }
+
   void close() {
     poses_.close();
     csv_.close();
+    objects_.close();
     if (can_) can_->flush();
     check_can();
   }
@@ -75,6 +86,7 @@ class Outputs {
   bool with_times_;
   TextOutput poses_;
   TextOutput csv_;
+  TextOutput objects_;
   std::optional<CanTraceWriter> can_;
   PoseTrack track_;
   StatusCount statuses_;
@@ -141,8 +153,10 @@ int run(const Arguments& arguments) {
   load_config(arguments.config, &config);
   LogReader reader(arguments.log);
   Outputs outputs(arguments);
-  Replay replay(config, arguments.seed, outputs.can_sink(),
-                [&outputs](const FrameRecord& record) { outputs.add(record); });
+  Replay replay(
+      config, arguments.seed, outputs.can_sink(),
+      [&outputs](const FrameRecord& record) { outputs.add(record); },
+      [&outputs](const objects_t& objects) { outputs.add(objects); });
   catch_stop_signals();
   const Effort effort = run_log(&reader, &replay);
   outputs.close();
@@ -156,6 +170,8 @@ void add_options(CLI::App* app, Arguments* arguments) {
   app->add_option("LOG", arguments->log, "LCM log with CAMERA and CAMERA_CALIBRATION")->required();
   app->add_option("--poses", arguments->poses, "KITTI pose file to write, one row per image");
   app->add_option("--csv", arguments->csv, "table to write, one row per image");
+  app->add_option("--objects", arguments->objects,
+                  "table to write, one row per object and image on DETECTIONS");
   app->add_option("--can", arguments->can, "CAN trace to write, as candump -L");
   app->add_option("--config", arguments->config, "TOML configuration");
   app->add_option("--seed", arguments->seed, "seed of the random sampling")->capture_default_str();
@@ -167,7 +183,7 @@ void add_options(CLI::App* app, Arguments* arguments) {
 
 int main(int argc, char** argv) {
   plumb::Arguments arguments;
-  CLI::App app("A log through vo, ground and can in one process", "plumb-replay");
+  CLI::App app("A log through vo, ground, objects and can in one process", "plumb-replay");
   plumb::add_options(&app, &arguments);
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
 }

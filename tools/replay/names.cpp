@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 
+#include "plumb/detection_t.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
+#include "plumb/object_t.hpp"
 #include "plumb/vo_motion_t.hpp"
 
 namespace plumb {
@@ -34,6 +36,17 @@ constexpr std::array kEgoStatus = {"ok",         "initializing", "scale_held",
                                    "standstill", "coasting",     "lost"};
 static_assert(kEgoStatus.size() == ego_motion_t::STATUS_LOST + 1);
 
+constexpr std::array kObjectClass = {"unknown", "car",        "van",    "truck",
+                                     "bus",     "pedestrian", "cyclist"};
+static_assert(kObjectClass.size() == detection_t::CLASS_CYCLIST + 1);
+
+constexpr std::array kObjectStatus = {"measured", "predicted", "not_localised"};
+static_assert(kObjectStatus.size() == object_t::STATUS_NOT_LOCALISED + 1);
+
+constexpr std::array kObjectReason = {"none",     "cut",    "hidden", "calibrated_plane",
+                                      "not_seen", "misfit", "no_fit"};
+static_assert(kObjectReason.size() == object_t::REASON_NO_FIT + 1);
+
 template <std::size_t kSize>
 const char* name_in(const std::array<const char*, kSize>& names, int number) {
   return number >= 0 && static_cast<std::size_t>(number) < kSize
@@ -49,5 +62,8 @@ const char* plane_status_name(int status) { return name_in(kPlaneStatus, status)
 const char* plane_reason_name(int reason) { return name_in(kPlaneReason, reason); }
 const char* cue_status_name(int status) { return name_in(kCueStatus, status); }
 const char* ego_status_name(int status) { return name_in(kEgoStatus, status); }
+const char* object_class_name(int object_class) { return name_in(kObjectClass, object_class); }
+const char* object_status_name(int status) { return name_in(kObjectStatus, status); }
+const char* object_reason_name(int reason) { return name_in(kObjectReason, reason); }
 
 }  // namespace plumb

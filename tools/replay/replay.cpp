@@ -7,7 +7,8 @@
 
 namespace plumb {
 
-Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink)
+Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
+               ObjectsSink objects_sink)
     : vo_(config.vo, seed, &vo_timer_),
       ground_(
           config.ground, &ground_timer_,
@@ -16,13 +17,17 @@ Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink,
             ego_ = &ego;
           },
           load_ground_model(config.ground.model_file)),
+      objects_(config.detections, config.objects, config.ground,
+               [this](const objects_t& objects) { take_objects(objects); }),
       can_(config.can),
       can_sink_(can_sink),
-      sink_(std::move(sink)) {}
+      sink_(std::move(sink)),
+      objects_sink_(std::move(objects_sink)) {}
 
 void Replay::take(const LogEvent& event) {
   if (event.channel == kCameraCalibration.name) take_calibration(event.data);
   if (event.channel == kCamera.name) take_image(event.data);
+  if (event.channel == kDetections.name) take_detections(event.data);
 }
 
 void Replay::take_calibration(std::span<const std::uint8_t> bytes) {
@@ -32,7 +37,10 @@ void Replay::take_calibration(std::span<const std::uint8_t> bytes) {
   }
   const char* vo_refused = vo_.take_calibration(message);
   const char* ground_refused = ground_.take_calibration(message);
-  const char* why = vo_refused != nullptr ? vo_refused : ground_refused;
+  const char* objects_refused = objects_.take_calibration(message);
+  const char* why = vo_refused != nullptr       ? vo_refused
+                    : ground_refused != nullptr ? ground_refused
+                                                : objects_refused;
   if (why != nullptr) refuse(kCameraCalibration.name, why);
 }
 
@@ -60,11 +68,29 @@ void Replay::take_image(std::span<const std::uint8_t> bytes) {
   if (plane_ != nullptr) {
     record.plane = plane_;
     record.ego = ego_;
+    // Live, too, objects sees each pair of them; what it refuses was refused nowhere else.
+    const char* objects_refused = objects_.take_plane(*plane_);
+    if (const char* why = objects_.take_ego(*ego_)) objects_refused = why;
+    if (record.refused == nullptr) record.refused = objects_refused;
     send_can(*plane_, *ego_);
   }
   if (record.refused != nullptr) refuse("frame " + std::to_string(frame.seq), record.refused);
   ++num_frames_;
   sink_(record);
+}
+
+void Replay::take_detections(std::span<const std::uint8_t> bytes) {
+  detections_t message;
+  if (!decode_bounded(bytes, &message)) return refuse(kDetections.name, "not a detections_t");
+  if (const char* why = objects_.take_detections(message)) return refuse(kDetections.name, why);
+  objects_.expire();  // no plane comes later in a log
+}
+
+void Replay::take_objects(const objects_t& objects) {
+  if (objects_sink_) objects_sink_(objects);
+  if (can_sink_ == nullptr) return;
+  can_.advance(objects.utime, *can_sink_);
+  can_.on_objects(objects, objects.utime);
 }
 
 void Replay::send_can(const ground_plane_t& plane, const ego_motion_t& ego) {

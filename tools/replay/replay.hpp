@@ -1,4 +1,4 @@
-/// The live chain in one process: CAMERA of a log -> vo -> ground -> can, as fast as it goes.
+/// The live chain in one process: CAMERA of a log -> vo -> ground -> can, with DETECTIONS -> objects, as fast as it goes.
 ///
 /// It runs the classes that plumb-vo, plumb-ground and plumb-can run, and hands on the messages
 /// they would publish, so its results are theirs bit for bit as long as no image is lost. Nothing
@@ -15,6 +15,7 @@
 #include "modules/can/can_wire.hpp"
 #include "modules/config.hpp"
 #include "modules/ground/ground_node.hpp"
+#include "modules/objects/objects_node.hpp"
 #include "modules/vo/vo_node.hpp"
 #include "platform/log_file.hpp"
 #include "platform/stage_timer.hpp"
@@ -38,8 +39,12 @@ class Replay {
  public:
   using Sink = std::function<void(const FrameRecord&)>;
 
-  /// `can_sink` may be null. `sink` is called once per image.
-  Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink);
+  using ObjectsSink = std::function<void(const objects_t&)>;
+
+  /// `can_sink` may be null. `sink` is called once per image, `objects_sink` (may be empty) once per image that was
+  /// searched for objects.
+  Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
+         ObjectsSink objects_sink = {});
 
   void take(const LogEvent& event);
   /// The log is over: CAN frames that wait are sent.
@@ -59,6 +64,8 @@ class Replay {
  private:
   void take_calibration(std::span<const std::uint8_t> bytes);
   void take_image(std::span<const std::uint8_t> bytes);
+  void take_detections(std::span<const std::uint8_t> bytes);
+  void take_objects(const objects_t& objects);
   void send_can(const ground_plane_t& plane, const ego_motion_t& ego);
   void refuse(const std::string& what, const char* why);
 
@@ -66,9 +73,11 @@ class Replay {
   StageTimer ground_timer_;
   VoNode vo_;
   GroundNode ground_;
+  ObjectsNode objects_;
   CanOutput can_;
   CanSink* can_sink_;
   Sink sink_;
+  ObjectsSink objects_sink_;
   const ground_plane_t* plane_ = nullptr;  ///< of the image in hand
   const ego_motion_t* ego_ = nullptr;
   std::int64_t num_frames_ = 0;

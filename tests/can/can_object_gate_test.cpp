@@ -1,0 +1,211 @@
+// Lists of objects: what reaches the bus, in which order, and what a receiver reads out of it.
+#include "modules/can/can_object_gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "modules/can/can_gate.hpp"
+#include "modules/can/can_wire.hpp"
+#include "plumb/detection_t.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Recorder final : CanSink {
+  std::vector<CanFrame> frames;
+  void send(std::int64_t /*time_us*/, const CanFrame& frame) override { frames.push_back(frame); }
+};
+
+object_t object_at(double x_m, double y_m, std::int32_t id = 5) {
+  object_t o{};
+  o.track_id = id;
+  o.class_id = detection_t::CLASS_CAR;
+  o.position_ground_m[0] = x_m;
+  o.position_ground_m[1] = y_m;
+  o.position_cov_m2[0][0] = 0.25;
+  o.position_cov_m2[1][1] = 0.04;
+  o.velocity_ground_m_s[0] = -12.0;
+  o.velocity_ground_m_s[1] = 0.5;
+  o.velocity_cov_m2_s2[0][0] = 1.0;
+  o.velocity_cov_m2_s2[1][1] = 0.25;
+  o.size_m[1] = 1.7;
+  o.time_to_collision_s = 2.5;
+  o.age_s = 1.2;
+  return o;
+}
+
+objects_t list_of(std::int64_t seq, std::vector<object_t> objects, std::int32_t num_refused = 0) {
+  objects_t message{};
+  message.seq = seq;
+  message.num_objects = static_cast<std::int32_t>(objects.size());
+  message.objects = std::move(objects);
+  message.num_refused = num_refused;
+  return message;
+}
+
+class ObjectGate : public testing::Test {
+ protected:
+  void give(const objects_t& message) {
+    CanObjects objects;
+    ASSERT_TRUE(from_wire(message, &objects));
+    gate_.on_objects(objects, now_us_);
+  }
+  /// What the next tick sends.
+  std::vector<CanFrame> tick() {
+    sink_.frames.clear();
+    gate_.tick(now_us_, sink_);
+    now_us_ += CanGate::kTickUs;
+    return sink_.frames;
+  }
+  static CanValues read(const CanFrame& frame) {
+    CanValues values;
+    for (const Message& message : object_messages()) {
+      if (message.id != frame.id) continue;
+      EXPECT_TRUE(decode(message, frame, &values)) << frame.id;
+    }
+    return values;
+  }
+  CanObjectGate gate_{CanConfig{}};
+  Recorder sink_;
+  std::int64_t now_us_ = 1'000'000;
+};
+
+TEST_F(ObjectGate, IsSilentUntilAListCame) {
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(tick().empty());
+}
+
+TEST_F(ObjectGate, SendsAListAndItsObjectsInOneBurst) {
+  give(list_of(300, {object_at(20.0, -3.0, 7), object_at(8.0, 2.0, 300)}, 1));
+  const std::vector<CanFrame> burst = tick();
+  ASSERT_EQ(burst.size(), 7U);
+  const std::uint32_t ids[] = {0x3B0, 0x3B1, 0x3B2, 0x3B3, 0x3B1, 0x3B2, 0x3B3};
+  for (std::size_t i = 0; i < burst.size(); ++i) {
+    EXPECT_EQ(burst[i].id, ids[i]);
+    EXPECT_EQ(read(burst[i]).object_frame_counter, 300 & 0xFF);
+  }
+  EXPECT_EQ(read(burst[0]).num_objects, 2.0);
+  EXPECT_EQ(read(burst[0]).num_objects_left_out, 1.0);
+  const CanValues near = read(burst[1]);  // nearest first
+  EXPECT_EQ(near.object_index, 0.0);
+  EXPECT_NEAR(near.object_x_m, 8.0, 0.026);
+  EXPECT_NEAR(near.object_y_m, 2.0, 0.026);
+  EXPECT_NEAR(near.object_x_std_m, 0.5, 0.026);
+  EXPECT_NEAR(near.object_y_std_m, 0.2, 0.011);
+  const CanValues motion = read(burst[2]);
+  EXPECT_NEAR(motion.object_vx_m_s, -12.0, 0.026);
+  EXPECT_NEAR(motion.object_vy_m_s, 0.5, 0.011);
+  EXPECT_NEAR(motion.object_vx_std_m_s, 1.0, 0.026);
+  const CanValues state = read(burst[3]);
+  EXPECT_EQ(state.object_id, 300 % 255);
+  EXPECT_EQ(state.object_class, 1.0);
+  EXPECT_EQ(state.object_status, 0.0);
+  EXPECT_NEAR(state.object_age_s, 1.2, 0.051);
+  EXPECT_NEAR(state.object_ttc_s, 2.5, 0.026);
+  EXPECT_NEAR(state.object_width_m, 1.7, 0.026);
+  EXPECT_EQ(read(burst[4]).object_index, 1.0);
+  EXPECT_NEAR(read(burst[4]).object_x_m, 20.0, 0.026);
+}
+
+TEST_F(ObjectGate, SendsEachListOnceAndThenOnlyThatNothingIsNew) {
+  give(list_of(1, {object_at(10.0, 0.0)}));
+  give(list_of(2, {object_at(11.0, 0.0)}));
+  EXPECT_EQ(read(tick()[1]).object_frame_counter, 1.0);
+  EXPECT_EQ(read(tick()[1]).object_frame_counter, 2.0);
+  int num_lists = 0;
+  for (int i = 0; i < 20; ++i) {  // 0.2 s
+    for (const CanFrame& frame : tick()) {
+      EXPECT_EQ(frame.id, 0x3B0U);
+      EXPECT_EQ(read(frame).num_objects, 1.0);
+      EXPECT_EQ(read(frame).object_frame_counter, 2.0);
+      ++num_lists;
+    }
+  }
+  EXPECT_EQ(num_lists, 2);
+}
+
+TEST_F(ObjectGate, SaysNotAvailableWithinOneCycleOfGoingStale) {
+  give(list_of(1, {object_at(10.0, 0.0)}));
+  const std::int64_t stale_us = now_us_ + 300'000;  // can.stale_s
+  (void)tick();
+  std::int64_t first_us = 0;
+  while (first_us == 0 && now_us_ < stale_us + 1'000'000) {
+    const std::int64_t at_us = now_us_;
+    for (const CanFrame& frame : tick())
+      if (std::isnan(read(frame).num_objects)) first_us = at_us;
+  }
+  EXPECT_GT(first_us, stale_us);
+  EXPECT_LE(first_us, stale_us + 100'000);
+}
+
+TEST_F(ObjectGate, AnEmptyListIsAList) {
+  give(list_of(4, {}));
+  const auto burst = tick();
+  ASSERT_EQ(burst.size(), 1U);
+  EXPECT_EQ(read(burst[0]).num_objects, 0.0);
+}
+
+TEST_F(ObjectGate, DropsTheOldestListsWhenTheyComeFasterThanTheyLeave) {
+  for (int seq = 0; seq < 20; ++seq) give(list_of(seq, {}));
+  EXPECT_EQ(gate_.num_overflowed(), 4);
+  EXPECT_EQ(read(tick()[0]).object_frame_counter, 4.0);
+}
+
+TEST_F(ObjectGate, ValuesSaturateAndWhatIsNotKnownIsNotAvailable) {
+  object_t far = object_at(900.0, -500.0);
+  far.velocity_ground_m_s[0] = kNan;
+  far.time_to_collision_s = kNan;
+  far.age_s = 1e6;
+  far.position_cov_m2[0][0] = 1e6;
+  give(list_of(1, {far}));
+  const auto burst = tick();
+  EXPECT_NEAR(read(burst[1]).object_x_m, 200.7, 1e-6);
+  EXPECT_NEAR(read(burst[1]).object_y_m, -102.4, 1e-6);
+  EXPECT_NEAR(read(burst[1]).object_x_std_m, 12.7, 1e-6);
+  EXPECT_TRUE(std::isnan(read(burst[2]).object_vx_m_s));
+  EXPECT_TRUE(std::isnan(read(burst[2]).object_vy_m_s));
+  EXPECT_TRUE(std::isnan(read(burst[3]).object_ttc_s));
+  EXPECT_NEAR(read(burst[3]).object_age_s, 51.0, 1e-6);
+}
+
+TEST(CanObjectsWire, KeepsTheNearestAndCountsTheRest) {
+  std::vector<object_t> objects;
+  for (int i = 0; i < 20; ++i) objects.push_back(object_at(5.0 + (i * 7) % 20, 0.0, i));
+  objects[3].status = object_t::STATUS_NOT_LOCALISED;
+  objects[3].position_ground_m[0] = kNan;  // nothing else of it holds
+  CanObjects list;
+  ASSERT_TRUE(from_wire(list_of(9, objects, 2), &list));
+  ASSERT_EQ(list.num_objects, kMaxCanObjects);
+  EXPECT_EQ(list.num_left_out, 20 - 8 + 2);
+  double last = 0.0;
+  for (const CanObject& object : list.objects) {
+    EXPECT_GE(object.x_m, last);
+    last = object.x_m;
+  }
+  EXPECT_LE(last, 13.0);
+}
+
+TEST(CanObjectsWire, RefusesABrokenMessage) {
+  CanObjects list;
+  const auto refused = [&list](void (*spoil)(objects_t*)) {
+    objects_t message = list_of(1, {object_at(5.0, 0.0), object_at(6.0, 0.0)});
+    spoil(&message);
+    return !from_wire(message, &list);
+  };
+  EXPECT_FALSE(refused([](objects_t*) {}));
+  EXPECT_TRUE(refused([](objects_t* m) { m->seq = -1; }));
+  EXPECT_TRUE(refused([](objects_t* m) { m->num_objects = 3; }));
+  EXPECT_TRUE(refused([](objects_t* m) { m->num_refused = -1; }));
+  EXPECT_TRUE(refused([](objects_t* m) { m->objects[1].status = 7; }));
+  EXPECT_TRUE(refused([](objects_t* m) { m->objects[1].class_id = -1; }));
+  EXPECT_TRUE(refused([](objects_t* m) { m->objects[0].position_ground_m[1] = kNan; }));
+  EXPECT_TRUE(refused([](objects_t* m) { m->objects[0].position_cov_m2[1][1] = -1.0; }));
+  EXPECT_TRUE(refused([](objects_t* m) { m->objects[0].size_m[1] = kNan; }));
+}
+
+}  // namespace
+}  // namespace plumb
