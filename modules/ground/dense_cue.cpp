@@ -80,7 +80,7 @@ DenseObservation DenseCue::measure(const Pyramid& now, const ImagePairs& pairs,
                                    const DenseRequest& request) {
   DenseObservation out;
   Solution solution;
-  const double height = sweep(now, pairs, request, &out);
+  const double height = sweep(now, pairs, request);
   if (!(height > 0.0)) return out;
   solution.q = request.normal_cam / height;
   for (int level = num_levels_ - 1; level >= 0; --level) {
@@ -93,14 +93,13 @@ DenseObservation DenseCue::measure(const Pyramid& now, const ImagePairs& pairs,
   rate(pairs, &out);
   const double ratio = 1.0 / (solution.q.norm() * request.height);
   const double cosine = solution.q.normalized().dot(request.normal_cam);
-  out.ok = ratio > 0.4 && ratio < 2.5 && cosine > std::cos(kLargestTilt);
+  out.ok = ratio > 0.4 && ratio < 2.5 && cosine > std::cos(kLargestTilt) && out.ncc > out.still_ncc;
   return out;
 }
 
 /// Height with the smallest mean difference along the expected normal; 0 when too little road is
 /// seen.
-double DenseCue::sweep(const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request,
-                       DenseObservation* out) {
+double DenseCue::sweep(const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request) {
   const int level = std::min(kSweepLevel, num_levels_ - 1);
   const LevelCamera camera = camera_of_level(camera_, level);
   const Eigen::Vector3d q = request.normal_cam / request.height;
@@ -123,8 +122,6 @@ double DenseCue::sweep(const Pyramid& now, const ImagePairs& pairs, const DenseR
     best_sad = sad;
     best_height = request.height * std::exp(ln_ratio);
   }
-  const PlaneWarp identity(level_of(*pairs[pairs.size() - 1].old_image, level), camera, Se3{});
-  out->identity_sad = identity.compare(pixels_, q).sad;
   return best_height;
 }
 
@@ -217,6 +214,8 @@ void DenseCue::rate(const ImagePairs& pairs, DenseObservation* out) {
     out->sad /= weight;
     out->ncc /= weight;
   }
+  const PlaneWarp still(level_of(*pairs[pairs.size() - 1].old_image, 0), camera, Se3{});
+  out->still_ncc = still.compare(pixels_, out->q).ncc;
 }
 
 }  // namespace plumb

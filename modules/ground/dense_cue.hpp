@@ -41,9 +41,10 @@ struct DenseObservation {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of q, pixel noise alone
   double sigma_grey = 0.0;                                ///< scale of the residuals
   double sad = 0.0;  ///< mean |residual| at q, gain and bias removed
-  double identity_sad =
-      0.0;             ///< the same if nothing had moved; below `sad` on overlays and at standstill
-  double ncc = 0.0;    ///< correlation at q
+  double ncc = 0.0;  ///< correlation at q
+  /// The same if nothing had moved in the image. Above `ncc` it is no road that is seen but what travels with us: an
+  /// overlay, or the back of a truck.
+  double still_ncc = 0.0;
   int num_pixels = 0;  ///< at the finest level, all pairs
 };
 
@@ -62,8 +63,7 @@ class DenseCue {
 
  private:
   struct Solution;
-  double sweep(const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request,
-               DenseObservation* out);
+  double sweep(const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request);
   bool refine(int level, const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request,
               Solution* solution);
   void rate(const ImagePairs& pairs, DenseObservation* out);

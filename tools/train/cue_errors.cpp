@@ -26,7 +26,7 @@ void write_dense(const GroundSight& sight, const CueReference& reference, Sample
   sample->dense_used = sight.dense_status == CueStatus::kUsed ? 1.0 : 0.0;
   sample->dense_ncc = dense.ncc;
   sample->dense_sad = dense.sad;
-  sample->dense_identity_sad = dense.identity_sad;
+  sample->dense_still_ncc = dense.still_ncc;
   sample->dense_sigma_grey = dense.sigma_grey;
   sample->dense_num_pixels = dense.num_pixels;
 

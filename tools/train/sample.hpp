@@ -35,7 +35,7 @@ struct Sample {
   double dense_used = kNone;
   double dense_ncc = kNone;
   double dense_sad = kNone;
-  double dense_identity_sad = kNone;
+  double dense_still_ncc = kNone;
   double dense_sigma_grey = kNone;
   double dense_num_pixels = kNone;
   double dense_pixel_var_n1 = kNone;  ///< by pixel noise alone

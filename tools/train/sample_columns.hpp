@@ -25,7 +25,7 @@ void Sample::visit(S& s, Field&& field) {
   field("dense_used", s.dense_used);
   field("dense_ncc", s.dense_ncc);
   field("dense_sad", s.dense_sad);
-  field("dense_identity_sad", s.dense_identity_sad);
+  field("dense_still_ncc", s.dense_still_ncc);
   field("dense_sigma_grey", s.dense_sigma_grey);
   field("dense_num_pixels", s.dense_num_pixels);
   field("dense_pixel_var_n1", s.dense_pixel_var_n1);
