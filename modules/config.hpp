@@ -4,6 +4,7 @@
 
 #include "modules/camera/camera_config.hpp"
 #include "modules/can/can_config.hpp"
+#include "modules/detect/detect_config.hpp"
 #include "modules/detections/detections_config.hpp"
 #include "modules/ground/ground_config.hpp"
 #include "modules/objects/objects_config.hpp"
@@ -14,6 +15,7 @@ namespace plumb {
 struct PlumbConfig {
   CameraConfig camera;
   VoConfig vo;
+  DetectConfig detect;
   DetectionsConfig detections;
   GroundConfig ground;
   ObjectsConfig objects;
@@ -23,6 +25,7 @@ struct PlumbConfig {
   static void visit(Config& c, Visit&& field) {
     CameraConfig::visit(c.camera, field);
     VoConfig::visit(c.vo, field);
+    DetectConfig::visit(c.detect, field);
     DetectionsConfig::visit(c.detections, field);
     GroundConfig::visit(c.ground, field);
     ObjectsConfig::visit(c.objects, field);

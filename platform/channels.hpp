@@ -23,6 +23,7 @@ inline constexpr Channel kGroundTruth{"GROUND_TRUTH", "log", 10.0, 0};
 inline constexpr Channel kHealthCamera{"HEALTH_CAMERA", "camera", 2.0, 1'500'000};
 inline constexpr Channel kHealthVo{"HEALTH_VO", "vo", 2.0, 1'500'000};
 inline constexpr Channel kHealthGround{"HEALTH_GROUND", "ground", 2.0, 1'500'000};
+inline constexpr Channel kHealthDetect{"HEALTH_DETECT", "detect", 2.0, 1'500'000};
 inline constexpr Channel kHealthObjects{"HEALTH_OBJECTS", "objects", 2.0, 1'500'000};
 inline constexpr Channel kHealthCan{"HEALTH_CAN", "can", 2.0, 1'500'000};
 

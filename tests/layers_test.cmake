@@ -1,6 +1,6 @@
 # A pure library may not reach I/O, the clock, the transport or OpenCV. Only main.cpp, *_wire.*, *_node.* and *_source.* may,
 # and paper mode's SIFT.
-# Flow is one way: camera -> vo -> ground -> objects/can; geometry, imaging and detections know nobody.
+# Flow is one way: camera -> detect, vo -> ground -> objects/can; geometry, imaging and detections know nobody.
 file(GLOB_RECURSE files ${ROOT}/modules/*.hpp ${ROOT}/modules/*.cpp)
 set(failed FALSE)
 foreach(file ${files})
@@ -13,7 +13,7 @@ foreach(file ${files})
   endif()
 endforeach()
 
-set(order geometry imaging detections camera vo ground objects can)
+set(order geometry imaging detections camera detect vo ground objects can)
 foreach(module ${order})
   file(GLOB_RECURSE files ${ROOT}/modules/${module}/*.hpp ${ROOT}/modules/${module}/*.cpp)
   list(FIND order ${module} rank)
@@ -38,7 +38,7 @@ foreach(file ${files})
 endforeach()
 file(GLOB_RECURSE files ${ROOT}/platform/*.hpp ${ROOT}/platform/*.cpp)
 foreach(file ${files})
-  file(STRINGS ${file} hits REGEX "#include \"modules/(camera|detections|vo|ground|objects|can)/")
+  file(STRINGS ${file} hits REGEX "#include \"modules/(camera|detect|detections|vo|ground|objects|can)/")
   if(hits)
     message(SEND_ERROR "${file}: the platform knows no module, but: ${hits}")
   endif()

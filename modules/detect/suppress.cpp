@@ -1,0 +1,43 @@
+#include "modules/detect/suppress.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace plumb {
+
+double overlap_ratio(const Box& a, const Box& b) {
+  const double width = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
+  const double height = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
+  if (width <= 0.0 || height <= 0.0) return 0.0;
+  const double shared = width * height;
+  const double all = a.width_px() * a.height_px() + b.width_px() * b.height_px() - shared;
+  return all > 0.0 ? shared / all : 0.0;
+}
+
+void suppress(std::vector<RawBox>* raw, double overlap, DetectionFrame* frame) {
+  // Equal scores keep the network's order: the same input gives the same detections.
+  std::stable_sort(raw->begin(), raw->end(),
+                   [](const RawBox& a, const RawBox& b) { return a.score > b.score; });
+  frame->detections.clear();
+  for (const RawBox& one : *raw) {
+    Detection* owner = nullptr;
+    for (Detection& kept : frame->detections) {
+      if (kept.object_class == one.object_class && overlap_ratio(kept.box, one.box) >= overlap) {
+        owner = &kept;
+        break;
+      }
+    }
+    if (owner == nullptr) {
+      Detection detection;
+      detection.object_class = one.object_class;
+      detection.score = one.score;
+      detection.box = one.box;
+      detection.truncated_ratio = std::numeric_limits<double>::quiet_NaN();
+      if (!frame->detections.push_back(detection)) continue;
+      owner = &frame->detections[frame->detections.size() - 1];
+    }
+    (void)owner->candidates.push_back({one.box, one.score});
+  }
+}
+
+}  // namespace plumb
