@@ -16,12 +16,12 @@ namespace {
 constexpr int kColumnsBeforeClasses = 5;  // centre x, y, width, height, objectness
 
 ObjectClass class_named(const std::string& name) {
-  static const std::map<std::string, ObjectClass> kNames = {
+  static const std::map<std::string, ObjectClass> names = {
       {"car", ObjectClass::kCar},         {"van", ObjectClass::kVan},
       {"truck", ObjectClass::kTruck},     {"bus", ObjectClass::kBus},
       {"cyclist", ObjectClass::kCyclist}, {"pedestrian", ObjectClass::kPedestrian}};
-  const auto found = kNames.find(name);
-  if (found == kNames.end())
+  const auto found = names.find(name);
+  if (found == names.end())
     throw ConfigError("detect.classes: '" + name +
                       "' is none of car, van, truck, bus, cyclist, pedestrian");
   return found->second;
