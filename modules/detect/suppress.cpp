@@ -5,15 +5,6 @@
 
 namespace plumb {
 
-double overlap_ratio(const Box& a, const Box& b) {
-  const double width = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
-  const double height = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
-  if (width <= 0.0 || height <= 0.0) return 0.0;
-  const double shared = width * height;
-  const double all = a.width_px() * a.height_px() + b.width_px() * b.height_px() - shared;
-  return all > 0.0 ? shared / all : 0.0;
-}
-
 void suppress(std::vector<RawBox>* raw, double overlap, DetectionFrame* frame) {
   // Equal scores keep the network's order: the same input gives the same detections.
   std::stable_sort(raw->begin(), raw->end(),
@@ -22,7 +13,8 @@ void suppress(std::vector<RawBox>* raw, double overlap, DetectionFrame* frame) {
   for (const RawBox& one : *raw) {
     Detection* owner = nullptr;
     for (Detection& kept : frame->detections) {
-      if (kept.object_class == one.object_class && overlap_ratio(kept.box, one.box) >= overlap) {
+      if (kept.object_class == one.object_class &&
+          intersection_over_union(kept.box, one.box) >= overlap) {
         owner = &kept;
         break;
       }

@@ -16,9 +16,6 @@ struct RawBox {
   ObjectClass object_class = ObjectClass::kUnknown;
 };
 
-/// Intersection over union, in [0, 1].
-[[nodiscard]] double overlap_ratio(const Box& a, const Box& b);
-
 /// Best first; boxes of one class that overlap a better one by `overlap` or more become its candidates (as many as fit,
 /// the better ones, the box itself among them). Sorts `raw`. Detections beyond the message's capacity are left out.
 void suppress(std::vector<RawBox>* raw, double overlap, DetectionFrame* frame);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +42,15 @@ struct Box {
   [[nodiscard]] double height_px() const { return bottom_px - top_px; }
   [[nodiscard]] double centre_u_px() const { return 0.5 * (left_px + right_px); }
 };
+
+/// Shared over common area, in [0, 1].
+[[nodiscard]] inline double intersection_over_union(const Box& a, const Box& b) {
+  const double width = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
+  const double height = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
+  if (width <= 0.0 || height <= 0.0) return 0.0;
+  const double both = width * height;
+  return both / (a.width_px() * a.height_px() + b.width_px() * b.height_px() - both);
+}
 
 /// One raw box of the detector before it suppressed its neighbours.
 struct Candidate {

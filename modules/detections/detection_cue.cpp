@@ -27,14 +27,6 @@ HeightFilter::Prior filter_prior(const DetectionsConfig& config) {
 
 double square(double x) { return x * x; }
 
-double intersection_over_union(const Box& a, const Box& b) {
-  const double width = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
-  const double height = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
-  if (width <= 0.0 || height <= 0.0) return 0.0;
-  const double both = width * height;
-  return both / (a.width_px() * a.height_px() + b.width_px() * b.height_px() - both);
-}
-
 /// Boxes of a detector that does not track keep nothing; any number below -1 is theirs.
 std::int32_t track_or_own_id(const Detection& detection, std::size_t index) {
   return detection.track_id >= 0 ? detection.track_id : -2 - static_cast<std::int32_t>(index);

@@ -14,12 +14,8 @@ constexpr double kNearestRange_m = 0.5;
 constexpr double kMostRangeRatio = 1.5;  ///< of the distance at which boxes are still used
 constexpr double kPartlyHidden = 0.25;
 
-double overlap_of(const Eigen::Vector4d& a, const Box& b) {
-  const double width = std::min(a(2), b.right_px) - std::max(a(0), b.left_px);
-  const double height = std::min(a(3), b.bottom_px) - std::max(a(1), b.top_px);
-  if (width <= 0.0 || height <= 0.0) return 0.0;
-  const double both = width * height;
-  return both / ((a(2) - a(0)) * (a(3) - a(1)) + b.width_px() * b.height_px() - both);
+Box box_of(const Eigen::Vector4d& edges_px) {
+  return {edges_px(0), edges_px(1), edges_px(2), edges_px(3)};
 }
 
 double range_of(const StateEstimate& estimate) { return estimate.x.head<2>().norm(); }
@@ -110,7 +106,7 @@ void ObjectTracker::match_by_overlap(const TrackView& view, const DetectionFrame
     for (std::size_t i = 0; i < frame.detections.size(); ++i) {
       const Detection& detection = frame.detections[i];
       overlap_[i][slot] = seen && detection.track_id < 0 && detection.score >= detections_.min_score
-                              ? overlap_of(seen->edges_px, detection.box)
+                              ? intersection_over_union(box_of(seen->edges_px), detection.box)
                               : 0.0;
     }
   }

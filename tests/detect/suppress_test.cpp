@@ -11,10 +11,10 @@ RawBox car(double left, double top, double right, double bottom, double score) {
   return {{left, top, right, bottom}, score, ObjectClass::kCar};
 }
 
-TEST(Suppress, OverlapIsSharedOverCommonArea) {
-  EXPECT_DOUBLE_EQ(overlap_ratio({0, 0, 10, 10}, {0, 0, 10, 10}), 1.0);
-  EXPECT_DOUBLE_EQ(overlap_ratio({0, 0, 10, 10}, {5, 0, 15, 10}), 50.0 / 150.0);
-  EXPECT_DOUBLE_EQ(overlap_ratio({0, 0, 10, 10}, {10, 0, 20, 10}), 0.0);
+TEST(IntersectionOverUnion, IsSharedOverCommonArea) {
+  EXPECT_DOUBLE_EQ(intersection_over_union({0, 0, 10, 10}, {0, 0, 10, 10}), 1.0);
+  EXPECT_DOUBLE_EQ(intersection_over_union({0, 0, 10, 10}, {5, 0, 15, 10}), 50.0 / 150.0);
+  EXPECT_DOUBLE_EQ(intersection_over_union({0, 0, 10, 10}, {10, 0, 20, 10}), 0.0);
 }
 
 TEST(Suppress, KeepsTheBestAndWhatAgreesAsItsCandidates) {
