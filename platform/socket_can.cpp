@@ -101,30 +101,23 @@ void SocketCan::send(std::int64_t time_us, const CanFrame& frame) {
     return;
   }
   // Behind frames that wait, a new one waits too: the order is part of the burst.
-  if (num_pending_ == 0) {
+  if (pending_.empty()) {
     const Result result = write(frame);
     if (result == Result::kDown) ++counters_.num_unsent;
     if (result != Result::kBusy) return;
   }
-  if (num_pending_ == kMaxPending) {
-    first_pending_ = (first_pending_ + 1) % kMaxPending;
-    --num_pending_;
-    ++counters_.num_unsent;
-  }
-  pending_[(first_pending_ + num_pending_) % kMaxPending] = {time_us, frame};
-  ++num_pending_;
+  if (!pending_.push({time_us, frame})) ++counters_.num_unsent;
 }
 
 void SocketCan::retry(std::int64_t now_us) {
-  while (num_pending_ > 0) {
-    const Pending& oldest = pending_[first_pending_];
+  while (!pending_.empty()) {
+    const Pending& oldest = pending_.front();
     const bool is_old = fd_ < 0 || now_us - oldest.time_us > kMaxPendingUs;
     const Result result = is_old ? Result::kDown : write(oldest.frame);
     if (result == Result::kBusy) return;
     if (result == Result::kSent) ++counters_.num_retried;
     if (result == Result::kDown) ++counters_.num_unsent;
-    first_pending_ = (first_pending_ + 1) % kMaxPending;
-    --num_pending_;
+    pending_.drop_front();
   }
 }
 

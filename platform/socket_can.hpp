@@ -6,12 +6,12 @@
 /// Memory   kMaxPending frames in place.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "platform/can_frame.hpp"
+#include "platform/fixed_queue.hpp"
 
 namespace plumb {
 
@@ -67,9 +67,7 @@ class SocketCan final : public CanSink {
   int fd_ = -1;
   std::int64_t next_open_us_ = INT64_MIN;
   std::string state_;
-  std::array<Pending, kMaxPending> pending_{};
-  std::size_t first_pending_ = 0;
-  std::size_t num_pending_ = 0;
+  FixedQueue<Pending, kMaxPending> pending_;
   SocketCanCounters counters_;
 };
 

@@ -9,8 +9,6 @@
 namespace plumb {
 namespace {
 
-constexpr int kTickMs = static_cast<int>(CanGate::kTickUs / 1'000);
-
 double number(CanValidity validity) { return static_cast<double>(validity); }
 double count(std::int64_t value) { return static_cast<double>(value); }
 
@@ -146,34 +144,24 @@ CanGate::Entry* CanGate::entry_of(std::int64_t seq, std::int64_t now_us) {
 
 /// The frame taken last, when that was `seq` and it is still here: a late half joins it.
 CanGate::Entry* CanGate::newest_closed(std::int64_t seq) {
-  if (num_pending_ > 0) {
-    Entry& last = pending_[(first_pending_ + num_pending_ - 1) % kMaxPending];
-    return last.seq == seq ? &last : nullptr;
-  }
+  if (!pending_.empty()) return pending_.back().seq == seq ? &pending_.back() : nullptr;
   return has_current_ && current_.seq == seq ? &current_ : nullptr;
 }
 
 /// Queues the open entry, complete or not.
 void CanGate::close() {
   if (!open_.has_plane || !open_.has_ego) ++counters_.num_unpaired;
-  if (num_pending_ == kMaxPending) {
-    first_pending_ = (first_pending_ + 1) % kMaxPending;
-    --num_pending_;
-    ++counters_.num_overflowed;
-  }
-  pending_[(first_pending_ + num_pending_) % kMaxPending] = open_;
-  ++num_pending_;
+  if (!pending_.push(open_)) ++counters_.num_overflowed;
   is_open_ = false;
 }
 
 /// Moves to the next camera frame. False when there is nothing new to send.
 bool CanGate::next(std::int64_t now_us) {
   if (is_open_ && age_us(now_us, open_.received_us) > pair_wait_us_) close();
-  if (is_changed_ || num_pending_ == 0) return std::exchange(is_changed_, false);
-  current_ = pending_[first_pending_];
+  if (is_changed_ || pending_.empty()) return std::exchange(is_changed_, false);
+  current_ = pending_.front();
   has_current_ = true;
-  first_pending_ = (first_pending_ + 1) % kMaxPending;
-  --num_pending_;
+  pending_.drop_front();
   ++counters_.num_frames;
   return true;
 }

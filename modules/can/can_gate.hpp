@@ -16,6 +16,7 @@
 #include "modules/can/can_config.hpp"
 #include "platform/can_frame.hpp"
 #include "platform/counters.hpp"
+#include "platform/fixed_queue.hpp"
 
 namespace plumb {
 
@@ -97,6 +98,7 @@ struct CanCounters {
 class CanGate {
  public:
   static constexpr std::int64_t kTickUs = 10'000;
+  static constexpr int kTickMs = static_cast<int>(kTickUs / 1'000);
   static constexpr std::size_t kMaxPending = 32;  ///< sent in 0.32 s
 
   explicit CanGate(const CanConfig& config);
@@ -112,7 +114,7 @@ class CanGate {
 
   [[nodiscard]] const CanCounters& counters() const { return counters_; }
   /// No frame waits to be sent.
-  [[nodiscard]] bool idle() const { return num_pending_ == 0 && !is_open_ && !is_changed_; }
+  [[nodiscard]] bool idle() const { return pending_.empty() && !is_open_ && !is_changed_; }
 
  private:
   struct Entry {
@@ -133,9 +135,7 @@ class CanGate {
 
   std::int64_t stale_us_;
   std::int64_t pair_wait_us_;
-  std::array<Entry, kMaxPending> pending_{};
-  std::size_t first_pending_ = 0;
-  std::size_t num_pending_ = 0;
+  FixedQueue<Entry, kMaxPending> pending_;
   Entry open_;  ///< the frame whose second half is awaited
   bool is_open_ = false;
   Entry current_;  ///< what is repeated

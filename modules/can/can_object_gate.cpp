@@ -10,7 +10,6 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t kList = 0;
-constexpr int kTickMs = static_cast<int>(CanGate::kTickUs / 1'000);
 
 CanValues values_of(const CanObjects& list, bool fresh) {
   CanValues v;
@@ -45,22 +44,15 @@ CanObjectGate::CanObjectGate(const CanConfig& config)
     : stale_us_(std::llround(config.stale_s * 1e6)) {}
 
 void CanObjectGate::on_objects(const CanObjects& objects, std::int64_t now_us) {
-  if (num_pending_ == kMaxPending) {
-    first_pending_ = (first_pending_ + 1) % kMaxPending;
-    --num_pending_;
-    ++num_overflowed_;
-  }
-  pending_[(first_pending_ + num_pending_) % kMaxPending] = {now_us, objects};
-  ++num_pending_;
+  if (!pending_.push({now_us, objects})) ++num_overflowed_;
 }
 
 void CanObjectGate::tick(std::int64_t now_us, CanSink& sink) {
-  ms_since_list_ += kTickMs;
-  if (num_pending_ > 0) {
-    current_ = pending_[first_pending_];
+  ms_since_list_ += CanGate::kTickMs;
+  if (!pending_.empty()) {
+    current_ = pending_.front();
     has_current_ = true;
-    first_pending_ = (first_pending_ + 1) % kMaxPending;
-    --num_pending_;
+    pending_.drop_front();
     CanValues values = values_of(current_.list, true);
     send(kList, values, now_us, sink);
     for (std::size_t i = 0; i < current_.list.num_objects; ++i) {

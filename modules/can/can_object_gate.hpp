@@ -14,6 +14,7 @@
 #include "modules/can/can_codec.hpp"
 #include "modules/can/can_config.hpp"
 #include "platform/can_frame.hpp"
+#include "platform/fixed_queue.hpp"
 
 namespace plumb {
 
@@ -57,7 +58,7 @@ class CanObjectGate {
   /// Sends what is due; call with every tick of CanGate.
   void tick(std::int64_t now_us, CanSink& sink);
 
-  [[nodiscard]] bool idle() const { return num_pending_ == 0; }
+  [[nodiscard]] bool idle() const { return pending_.empty(); }
   [[nodiscard]] std::int64_t num_overflowed() const { return num_overflowed_; }
 
  private:
@@ -68,9 +69,7 @@ class CanObjectGate {
   void send(std::size_t message, const CanValues& values, std::int64_t now_us, CanSink& sink);
 
   std::int64_t stale_us_;
-  std::array<Entry, kMaxPending> pending_;
-  std::size_t first_pending_ = 0;
-  std::size_t num_pending_ = 0;
+  FixedQueue<Entry, kMaxPending> pending_;
   Entry current_;
   bool has_current_ = false;
   int ms_since_list_ = 0;
