@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "modules/ground/dense_cue.hpp"
+#include "modules/ground/ground_model.hpp"
 #include "modules/ground/points_cue.hpp"
 #include "modules/ground/travel.hpp"
 
@@ -36,6 +37,8 @@ class CueCovariance {
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
   [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
   [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
+  /// What no frame can tell, because it is the same in all frames of a drive; nothing where nobody measured it.
+  [[nodiscard]] virtual PlaneBias bias() const { return {}; }
 };
 
 /// Set by hand: pixel noise plus a floor for what pixel noise does not explain, pose error, heave

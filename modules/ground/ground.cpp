@@ -66,9 +66,8 @@ struct GroundEstimator::Impl {
         camera_height_m(camera_height_of(config_in, camera)),
         ring(camera),
         dense_cue(ring.camera(), ring.num_levels()),
-        covariance(make_covariance(config_in, model)) {
-    if (config.covariance != "fixed") bias = model.bias;
-  }
+        covariance(make_covariance(config_in, model)),
+        bias(covariance->bias()) {}
 
   void take_image(const GroundInput& input);
   void follow_scale_epoch(const VoOutput& vo);

@@ -22,6 +22,7 @@ class LearnedCovariance final : public CueCovariance {
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
+  [[nodiscard]] PlaneBias bias() const override { return model_.bias; }
 
  private:
   GroundModel model_;
