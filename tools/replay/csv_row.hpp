@@ -14,7 +14,12 @@ class CsvRow {
  public:
   explicit CsvRow(bool names_only) : names_only_(names_only) {}
 
-  void add(const std::string& name, const char* text) { cell(name, text == nullptr ? "" : text); }
+  /// Reasons are sentences; a comma in one must not begin a new cell.
+  void add(const std::string& name, const char* text) {
+    std::string value = text == nullptr ? "" : text;
+    std::replace(value.begin(), value.end(), ',', ';');
+    cell(name, value);
+  }
   void add(const std::string& name, std::int64_t value) { cell(name, std::to_string(value)); }
   /// Empty when the value does not hold or is not finite.
   void add(const std::string& name, double value, bool holds = true) {
@@ -29,9 +34,6 @@ class CsvRow {
   void cell(const std::string& name, const std::string& value) {
     if (!text_.empty() || num_cells_ > 0) text_ += ',';
     text_ += names_only_ ? name : value;
-    // Reasons are sentences; a comma in one must not begin a new cell.
-    std::replace(text_.end() - static_cast<std::ptrdiff_t>(names_only_ ? 0 : value.size()),
-                 text_.end(), ',', ';');
     ++num_cells_;
   }
   bool names_only_;
