@@ -8,6 +8,7 @@
 #include <cmath>
 #include <future>
 #include <limits>
+#include <map>
 #include <nlopt.hpp>
 
 #include "modules/vo/vo.hpp"
@@ -63,19 +64,32 @@ class Objective {
             const LensFitProgress& progress)
       : drives_(drives), options_(options), progress_(progress) {}
 
-  /// Every drive through VO, with `steps` steps away from its stated calibration.
-  Blocks run(const std::vector<const CameraParameter*>& parameters,
-             const std::vector<double>& steps) {
-    std::vector<std::future<std::vector<double>>> runs;
+  /// Every drive through VO, with a camera `steps` steps away from the stated calibration. A camera is run once: search,
+  /// grid and report meet at some of them.
+  const Blocks& run(const std::vector<const CameraParameter*>& parameters,
+                    const std::vector<double>& steps) {
+    CameraModel camera = drives_.front().camera;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      parameters[i]->set(&camera, parameters[i]->get(camera) + parameters[i]->step * steps[i]);
     std::vector<double> values;
+    for (const CameraParameter& p : camera_parameters()) values.push_back(p.get(camera));
+    const auto known = known_.find(values);
+    if (known != known_.end()) return known->second;
+    const Blocks& blocks = known_[values] = run(camera);
+    std::vector<double> shown;
+    for (const CameraParameter* p : parameters) shown.push_back(p->get(camera));
+    progress_(num_runs(), shown, mean_of(blocks));
+    return blocks;
+  }
+
+  [[nodiscard]] int num_runs() const { return static_cast<int>(known_.size()); }
+  [[nodiscard]] int most_runs() const { return options_.most_runs; }
+
+ private:
+  Blocks run(const CameraModel& camera) const {
+    std::vector<std::future<std::vector<double>>> runs;
     for (const RecordedDrive& drive : drives_) {
-      CameraModel camera = drive.camera;
-      for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const CameraParameter& p = *parameters[i];
-        p.set(&camera, p.get(drive.camera) + p.step * steps[i]);
-        if (values.size() < parameters.size()) values.push_back(p.get(camera));
-      }
-      runs.push_back(std::async(std::launch::async, [this, &drive, camera] {
+      runs.push_back(std::async(std::launch::async, [this, &drive, &camera] {
         return residuals_of(drive, camera, options_.vo, options_.seed);
       }));
     }
@@ -85,19 +99,13 @@ class Objective {
       all.insert(all.end(), blocks.begin(), blocks.end());
     }
     if (stop_requested()) throw Stopped();
-    ++num_runs_;
-    progress_(num_runs_, values, mean_of(all));
     return all;
   }
 
-  [[nodiscard]] int num_runs() const { return num_runs_; }
-  [[nodiscard]] int most_runs() const { return options_.most_runs; }
-
- private:
   const std::vector<RecordedDrive>& drives_;
   const LensFitOptions& options_;
   const LensFitProgress& progress_;
-  int num_runs_ = 0;
+  std::map<std::vector<double>, Blocks> known_;  ///< by the values of all parameters
 };
 
 struct Search {

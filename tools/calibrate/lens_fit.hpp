@@ -44,7 +44,7 @@ struct LensFitOptions {
 using LensFitProgress =
     std::function<void(int num_runs, const std::vector<double>& values, double residual_px)>;
 
-/// @pre drives and wanted not empty. Throws Stopped when `stop_requested()`.
+/// @pre drives and wanted not empty, all drives of the same camera. Throws Stopped when `stop_requested()`.
 [[nodiscard]] LensFit fit_lens(const std::vector<RecordedDrive>& drives,
                                const std::vector<const CameraParameter*>& wanted,
                                const LensFitOptions& options, const LensFitProgress& progress);

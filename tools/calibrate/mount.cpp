@@ -6,7 +6,6 @@
 #include "modules/ground/ground.hpp"
 #include "modules/ground/ground_model_source.hpp"
 #include "modules/vo/vo.hpp"
-#include "platform/input_error.hpp"
 #include "tools/calibrate/lens_fit.hpp"
 #include "tools/support/statistics.hpp"
 #include "tools/support/stop_flag.hpp"
@@ -28,14 +27,6 @@ struct Sights {
   std::vector<double> ln_length_ratios;  ///< true over estimated length of blocks of frames
 };
 
-std::optional<TruthTrack> truth_of(const std::string& log) {
-  try {
-    return TruthTrack(log, "");
-  } catch (const InputError&) {
-    return std::nullopt;  // no reference in this log
-  }
-}
-
 class LengthBlock {
  public:
   void add(double true_m, double estimated_m, std::vector<double>* ratios) {
@@ -56,7 +47,8 @@ void run_drive(const RecordedDrive& drive, const CameraModel& camera, const Plum
                std::uint64_t seed, Sights* sights) {
   VisualOdometry vo(config.vo, camera, seed);
   GroundEstimator ground(config.ground, camera, load_ground_model(config.ground.model_file));
-  const std::optional<TruthTrack> truth = truth_of(drive.log);
+  std::optional<TruthTrack> truth;
+  if (drive.has_true_poses) truth.emplace(drive.log, "");
   NullProbe probe;
   LengthBlock block;
   for (std::size_t i = 0; i < drive.images.size(); ++i) {

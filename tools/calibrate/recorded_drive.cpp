@@ -8,6 +8,7 @@
 #include "platform/channels.hpp"
 #include "platform/input_error.hpp"
 #include "platform/log_file.hpp"
+#include "plumb/ground_truth_t.hpp"
 
 namespace plumb {
 namespace {
@@ -51,6 +52,11 @@ RecordedDrive read_drive(const std::string& log, std::size_t most_images) {
       if (!decode_bounded(event.data, &message)) refuse(log, event, "not a camera_calibration_t");
       if (const char* why = from_wire(message, &drive.camera)) refuse(log, event, why);
       decoder.emplace(drive.camera.width_px, drive.camera.height_px);
+    }
+    if (event.channel == kGroundTruth.name) {
+      ground_truth_t truth;
+      if (!decode_bounded(event.data, &truth)) refuse(log, event, "not a ground_truth_t");
+      drive.has_true_poses |= truth.has_pose != 0;
     }
     if (event.channel != kCamera.name) continue;
     if (!decoder) throw InputError(log + ": an image comes before any " + kCameraCalibration.name);

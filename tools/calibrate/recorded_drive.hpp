@@ -20,7 +20,8 @@ struct RecordedImage {
 
 struct RecordedDrive {
   std::string log;
-  CameraModel camera;  ///< as the log states it
+  CameraModel camera;           ///< as the log states it
+  bool has_true_poses = false;  ///< on GROUND_TRUTH
   std::vector<RecordedImage> images;
 
   [[nodiscard]] ImageView view(std::size_t i) const;
