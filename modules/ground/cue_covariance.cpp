@@ -3,14 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "modules/ground/plane_filter.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Residuals of neighbouring pixels are correlated: standard deviations grow by this.
 constexpr double kPixelCorrelation = 3.0;

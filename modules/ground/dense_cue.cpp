@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kShortBaseline = 0.45;
 constexpr double kLongBaseline = 1.3;
 constexpr double kLongestBaseline = 4.0;
 // Beyond this turn the road has left its place in the image, and calibration errors no longer cancel.
-constexpr double kLargestTurnRad = 8.0 * std::numbers::pi / 180.0;
+constexpr double kLargestTurnRad = 8.0 * kDegree;
 
 constexpr int kSweepSteps = 13;
 constexpr int kSweepLevel = 1;
@@ -27,8 +28,6 @@ constexpr double kConverged = 1e-4;   // |dq| / |q|
 constexpr double kLargestStep = 0.2;  // |dq| / |q|
 constexpr double kStartSigmaGrey = 12.0;
 constexpr double kSmallestSigmaGrey = 1.5;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNormalPriorStd = 1.5 * kDegree;
 constexpr double kLargestTilt = 6.0 * kDegree;
 // Neighbouring residuals are not independent; that many of them weigh like one against the prior.

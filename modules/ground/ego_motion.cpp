@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "modules/ground/plane_angles.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMicro = 1e-6;
 
 // Standing still is measured: what is left is vibration.
@@ -19,7 +16,7 @@ constexpr double kStandstillTurnVar = 1e-5 * 1e-5;
 
 // A predicted motion: the driver may brake or steer. Grows with the number of coasted frames.
 constexpr double kCoastStepRatio = 0.05;
-constexpr double kCoastTurnRad = 0.1 * std::numbers::pi / 180.0;
+constexpr double kCoastTurnRad = 0.1 * kDegree;
 
 // VO's steps scatter by about this much of their length on real drives.
 constexpr double kStepScatterRatio = 0.01;

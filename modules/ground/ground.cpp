@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "modules/ground/cue_covariance.hpp"
 #include "modules/ground/dense_cue.hpp"
@@ -16,11 +15,10 @@
 #include "modules/ground/points_cue.hpp"
 #include "modules/ground/seen_height.hpp"
 #include "modules/ground/travel.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // A shorter chord does not tell the direction of travel, nor new points their depth. In camera
 // heights.

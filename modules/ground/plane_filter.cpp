@@ -4,12 +4,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 constexpr double kStartTiltStd = 1.0 * kDegree;
 constexpr double kStartLnHeightStd = 0.1;

@@ -11,7 +11,7 @@ namespace plumb {
 namespace {
 
 // Degrees of freedom of the residuals' Student-t distribution: w = (nu + 1) / (nu + r^2 / sigma^2).
-constexpr float kNu = 5.0F;
+constexpr float kResidualNu = 5.0F;
 constexpr int kReach_px = 1;  // for the central differences
 
 /// Byte `k` of each little-endian word as float.
@@ -147,7 +147,8 @@ void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
     const Lanes g = at.inverse_depth * (camera_.fx * old.du * (h.t[0] - at.xn * h.t[2]) +
                                         camera_.fy * old.dv * (h.t[1] - at.yn * h.t[2]));
     const IntLanes usable = at.inside & held(i, pixels.size);
-    const Lanes w = usable ? (kNu + 1.0F) / (kNu + r * r * inverse_var) : splat(0.0F);
+    const Lanes w =
+        usable ? (kResidualNu + 1.0F) / (kResidualNu + r * r * inverse_var) : splat(0.0F);
     lanes.add(x, y, grey, usable ? g : splat(0.0F), r, w);
     lanes.count += usable ? splat(1.0F) : splat(0.0F);
   }

@@ -18,7 +18,7 @@ constexpr double kMeanRoughnessVar = 0.02 * 0.02;
 constexpr double kMeanWindow = 0.1;     // ln h
 constexpr double kInlierWindow = 0.06;  // ln h
 constexpr int kMeanIterations = 3;
-constexpr double kNu = 4.0;
+constexpr double kHeightNu = 4.0;
 constexpr double kRoughMinRaySlope = 0.085;
 constexpr std::size_t kRoughMinPoints = 10;
 
@@ -106,7 +106,7 @@ void PointsCue::average(double ln_start, PointsObservation* out) const {
       const double e = static_cast<double>(ln_height_[i]) - mean;
       if (std::abs(e) >= kMeanWindow) continue;
       const double v = static_cast<double>(var_[i]) + kMeanRoughnessVar;
-      const double w = 1.0 / (v * (1.0 + e * e / (kNu * v)));
+      const double w = 1.0 / (v * (1.0 + e * e / (kHeightNu * v)));
       sum_w += w;
       sum_ln += w * static_cast<double>(ln_height_[i]);
       sum_p += w * points_[i];

@@ -9,7 +9,7 @@ namespace {
 /// Place in a buffer. An image has at most 2^26 pixels: int holds every product of its sides.
 constexpr std::size_t place(int i) { return static_cast<std::size_t>(i); }
 
-constexpr int kBorderPx = 6;
+constexpr int kCornerBorderPx = 6;
 constexpr int kBoxHalf = 2;  // structure tensor over 5 x 5
 constexpr int kMaskStep = 2;
 constexpr int kMaskReach = 2;  // blocks kept free around a taken point
@@ -56,10 +56,10 @@ CornerDetector::CornerDetector(int width_px, int height_px, int max_corners)
 }
 
 CornerDetector::Cell CornerDetector::cell(int column, int row) const {
-  return {std::max(kBorderPx, column * width_px_ / columns_),
-          std::max(kBorderPx, row * height_px_ / rows_),
-          std::min(width_px_ - kBorderPx - 1, (column + 1) * width_px_ / columns_),
-          std::min(height_px_ - kBorderPx - 1, (row + 1) * height_px_ / rows_)};
+  return {std::max(kCornerBorderPx, column * width_px_ / columns_),
+          std::max(kCornerBorderPx, row * height_px_ / rows_),
+          std::min(width_px_ - kCornerBorderPx - 1, (column + 1) * width_px_ / columns_),
+          std::min(height_px_ - kCornerBorderPx - 1, (row + 1) * height_px_ / rows_)};
 }
 
 void CornerDetector::clear() {

@@ -9,7 +9,7 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kCauchy2 = 1.0;
+constexpr double kDepthCauchy2 = 1.0;
 constexpr double kInformation = 1.0 / (kPixelStd * kPixelStd);
 // A new host's prior: wide enough to let the observations decide, narrow enough to survive a standstill.
 constexpr double kRehostStd = 3.0;
@@ -32,7 +32,7 @@ void refine_inverse_depth(Track& track, const Window& window, const Eigen::Vecto
           transfer(T_frame_host, track.host_xy, track.rho, track.xy_in(slot), focal_px);
       if (!p.in_front) continue;
       const Eigen::Vector2d d = projection_jacobian(p.Y, focal_px) * T_frame_host.t;
-      const double w = kInformation / (1.0 + p.residual_px.squaredNorm() / kCauchy2);
+      const double w = kInformation / (1.0 + p.residual_px.squaredNorm() / kDepthCauchy2);
       information += w * d.squaredNorm();
       b += w * d.dot(p.residual_px);
     }

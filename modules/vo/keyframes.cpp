@@ -11,11 +11,10 @@ namespace plumb::vo {
 namespace {
 
 // Less parallax than this makes no keyframe, however few tracks are left.
-constexpr double kMinParallaxPx = 2.0;
+constexpr double kMinKeyframeParallaxPx = 2.0;
 constexpr double kFewTracksRatio = 0.5;
 constexpr double kFewTracksParallaxPx = 1.0;
 constexpr double kKnownDepth = 0.2;  // deviation as a share of rho
-constexpr double kUnknownStd = 0.3;  // 1/[vo]
 constexpr double kHorizonMarginPx = 30.0;
 
 }  // namespace
@@ -55,7 +54,7 @@ Keyframes::View Keyframes::look(const TrackTable& tracks, const Window& window,
 bool Keyframes::wanted(const View& view) const {
   if (view.median_parallax_px > config_.keyframe_parallax_px) return true;
   if (view.num_shared < config_.keyframe_overlap_ratio * num_at_keyframe_ &&
-      view.median_parallax_px > kMinParallaxPx) {
+      view.median_parallax_px > kMinKeyframeParallaxPx) {
     return true;
   }
   return view.num_tracks < kFewTracksRatio * num_at_keyframe_ &&
@@ -121,9 +120,9 @@ void Keyframes::guess_depth(Track& track) const {
     if (nearest[1].first < nearest[0].first) std::swap(nearest[1], nearest[0]);
   }
   track.rho = kTypicalRho;
-  track.rho_std = kUnknownStd;
+  track.rho_std = kUnknownRhoStd;
   track.prior_rho = kTypicalRho;
-  track.prior_std = kUnknownStd;
+  track.prior_std = kUnknownRhoStd;
   if (nearest[2].first > 1e299) return;
   const double a = nearest[0].second;
   const double b = nearest[1].second;

@@ -9,7 +9,7 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kCauchy2 = 4.0;
+constexpr double kPoseCauchy2 = 4.0;
 constexpr double kConvergedStep = 1e-7;
 
 using HostTable = std::array<Se3, kMaxFrames>;
@@ -87,7 +87,7 @@ PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& windo
     for (const int index : tracks.active()) {
       const Track& track = tracks[index];
       add_point(track, T_cam_host[static_cast<std::size_t>(track.host)], focal_px,
-                kCauchy2 * options.kernel_scale, &normal, &fit);
+                kPoseCauchy2 * options.kernel_scale, &normal, &fit);
     }
     fit.information = normal.H;
     fit.rms_px = std::sqrt(normal.sum_inlier_px2 / std::max(1, fit.num_inliers));

@@ -8,7 +8,7 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kCauchy2 = 1.0;
+constexpr double kRefineCauchy2 = 1.0;
 constexpr double kStartDamping = 1e-5;
 constexpr double kDampingUp = 20.0;
 constexpr double kMaxDamping = 1.0;
@@ -87,8 +87,8 @@ void WindowRefiner::add_track(const Window& window, const TrackTable& tracks,
         transfer(T_frame_host, track.host_xy, track.rho, track.xy_in(slot), focal_px);
     if (!p.in_front) continue;
     const double e2 = p.residual_px.squaredNorm();
-    const double weight = 1.0 / (1.0 + e2 / kCauchy2);
-    cost_ += kCauchy2 * std::log(1.0 + e2 / kCauchy2);
+    const double weight = 1.0 / (1.0 + e2 / kRefineCauchy2);
+    cost_ += kRefineCauchy2 * std::log(1.0 + e2 / kRefineCauchy2);
     const Matrix23d D = projection_jacobian(p.Y, focal_px);
     const Eigen::Vector2d d = D * T_frame_host.t;
     s->hrr += weight * d.squaredNorm();

@@ -11,21 +11,21 @@ namespace {
 
 constexpr int kMinTracks = 40;
 constexpr double kMinSurvivors = 0.4;
-constexpr double kLeastFlowPx = 3.0;    // when waiting for more would lose the tracks
-constexpr double kMinParallaxPx = 2.0;  // left by the best rotation
-constexpr double kMinInlierRatio = 0.5;
+constexpr double kLeastFlowPx = 3.0;         // when waiting for more would lose the tracks
+constexpr double kMinStartParallaxPx = 2.0;  // left by the best rotation
+constexpr double kMinStartInlierRatio = 0.5;
 constexpr double kStandingFlowPx = 0.35;
 constexpr double kStandingShare = 0.7;
-constexpr double kUnknownStd = 0.3;  // 1/[vo]
 constexpr int kDepthIterations = 15;
 constexpr int kStartIterations = 30;
 constexpr double kSpeedStdRatio = 0.03;
-constexpr double kAccelerationStd = 1.5;   // [vo]/s^2
+constexpr double kCarriedAccelerationStd = 1.5;  // [vo]/s^2
 constexpr double kAccelerationTime = 1.0;  // a driver keeps an acceleration for about this long [s]
 
 /// 1-sigma of ln(speed now / speed when last seen): grows with the time at first, with its root later.
 double carried_std(double seen_speed, double unseen_s) {
-  const double wander = kAccelerationStd * unseen_s / std::sqrt(1.0 + unseen_s / kAccelerationTime);
+  const double wander =
+      kCarriedAccelerationStd * unseen_s / std::sqrt(1.0 + unseen_s / kAccelerationTime);
   return std::hypot(kSpeedStdRatio, wander / std::max(seen_speed, 1e-3));
 }
 
@@ -133,12 +133,12 @@ double Pipeline::collect_pairs() {
 bool Pipeline::try_start(const VoInput& /*input*/, double least_flow_px) {
   out_.median_flow_px = collect_pairs();
   if (out_.median_flow_px < least_flow_px) return false;
-  if (fit_rotation(pairs_, focal_px_.x(), scratch_).median_px < kMinParallaxPx) return false;
+  if (fit_rotation(pairs_, focal_px_.x(), scratch_).median_px < kMinStartParallaxPx) return false;
   const int reference = window_.order()[0];
   const Se3 T_guess =
       window_[window_.newest()].T_cam_world * window_[reference].T_cam_world.inverse();
   const TwoView views = solve_two_view(pairs_, focal_px_.x(), T_guess, random_);
-  if (!views.ok || views.num_inliers < kMinInlierRatio * static_cast<double>(pairs_.size())) {
+  if (!views.ok || views.num_inliers < kMinStartInlierRatio * static_cast<double>(pairs_.size())) {
     return false;
   }
   const bool speed_known = restarting_ && speed_known_ && predicted_distance_ > 0.0;
@@ -187,7 +187,7 @@ void Pipeline::adopt_two_views(const TwoView& views, double distance) {
     const bool meets = triangulate({track.host_xy, track.xy}, views.T_second_first, &rho);
     track.rho = meets ? std::clamp(rho / distance, kMinRho, 1.0) : kTypicalRho;
     track.prior_rho = kTypicalRho;
-    track.prior_std = kUnknownStd;
+    track.prior_std = kUnknownRhoStd;
     refine_inverse_depth(track, window_, focal_px_, kDepthIterations);
   }
   drop_gross(newest);

@@ -14,6 +14,7 @@ namespace plumb::vo {
 
 inline constexpr int kMaxFrames = 12;  ///< slots of the window
 inline constexpr double kMinRho = 1e-5;
+inline constexpr double kUnknownRhoStd = 0.3;  ///< of a depth that nothing has shown yet [1/vo]
 
 struct Track {
   int host = -1;  ///< window slot of the host keyframe

@@ -11,7 +11,7 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kBorderPx = 10.0;
+constexpr double kSearchBorderPx = 10.0;
 constexpr float kMaxRoundTripPx = 0.7F;
 constexpr float kMinSearchNcc = 0.5F;
 constexpr float kMinAnchorNcc = 0.75F;
@@ -21,7 +21,7 @@ constexpr double kRoadBelowHorizonPx = 25.0;
 // Depth deviations, as a share of rho, up to which a prediction leans on them.
 constexpr double kUsableDepth = 0.5;
 // Up to here the host's patch checks a match better than the way back does.
-constexpr double kSettledDepth = 0.1;
+constexpr double kSettledSearchDepth = 0.1;
 constexpr AlignLimits kAnchorLimits{};
 // A search on level l finds what is kReachPx 2^l away.
 constexpr int kReachPx = 4;
@@ -42,8 +42,9 @@ Tracker::Tracker(const CameraModel& camera, int track_capacity)
 }
 
 bool Tracker::inside(const Eigen::Vector2d& px) const {
-  return px.x() >= kBorderPx && px.y() >= kBorderPx && px.x() <= camera_.width_px - kBorderPx - 1 &&
-         px.y() <= camera_.height_px - kBorderPx - 1;
+  return px.x() >= kSearchBorderPx && px.y() >= kSearchBorderPx &&
+         px.x() <= camera_.width_px - kSearchBorderPx - 1 &&
+         px.y() <= camera_.height_px - kSearchBorderPx - 1;
 }
 
 void Tracker::begin(TrackTable& tracks) {
@@ -112,7 +113,7 @@ int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, 
       there = klt_search(from, start, to, guess.px, guess.scale, kRetryLevel);
     }
     if (!there.ok() || there.ncc < kMinSearchNcc || !inside(there.px.cast<double>())) continue;
-    if (track.rho_std >= kSettledDepth * track.rho) {
+    if (track.rho_std >= kSettledSearchDepth * track.rho) {
       const KltMatch back = klt_search(to, there.px, from, start, 1.0F / guess.scale, 0);
       if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) continue;
     }

@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "platform/input_error.hpp"
 #include "platform/kitti/calibration.hpp"
 #include "platform/number_file.hpp"
+#include "platform/numbers.hpp"
 #include "platform/text.hpp"
 
 namespace plumb {
@@ -25,10 +25,9 @@ fs::path first_existing(const fs::path& drive, const char* name) {
 }
 
 Se3 T_mercator_imu(const std::vector<double>& oxts, double mercator_scale) {
-  const double radians = std::numbers::pi / 180.0;
   Se3 T;
-  T.t.x() = mercator_scale * kEarthRadius_m * oxts[1] * radians;
-  T.t.y() = mercator_scale * kEarthRadius_m * std::log(std::tan((90.0 + oxts[0]) * radians / 2.0));
+  T.t.x() = mercator_scale * kEarthRadius_m * oxts[1] * kDegree;
+  T.t.y() = mercator_scale * kEarthRadius_m * std::log(std::tan((90.0 + oxts[0]) * kDegree / 2.0));
   T.t.z() = oxts[2];
   T.R = (Eigen::AngleAxisd(oxts[5], Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(oxts[4], Eigen::Vector3d::UnitY()) *
@@ -77,7 +76,7 @@ std::vector<std::optional<Se3>> read_oxts_poses(const fs::path& data_folder,
     poses.emplace_back();
     const std::optional<std::vector<double>> oxts = read_oxts(data_folder, image.number);
     if (!oxts) continue;
-    if (!mercator_scale) mercator_scale = std::cos(oxts->front() * std::numbers::pi / 180.0);
+    if (!mercator_scale) mercator_scale = std::cos(oxts->front() * kDegree);
     const Se3 T_mercator_cam = T_mercator_imu(*oxts, *mercator_scale) * T_imu_cam;
     if (!T_world_mercator) T_world_mercator = T_mercator_cam.inverse();
     poses.back() = *T_world_mercator * T_mercator_cam;

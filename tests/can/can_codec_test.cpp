@@ -4,16 +4,14 @@
 
 #include <bitset>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <string>
 
 #include "modules/can/can_e2e.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Calls `check(message, signal)` for every signal that carries a value.
 template <typename Check>

@@ -4,17 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "modules/can/can_gate.hpp"
 #include "modules/can/can_wire.hpp"
+#include "platform/numbers.hpp"
 #include "plumb/detection_t.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Recorder final : CanSink {
   std::vector<CanFrame> frames;

@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "platform/numbers.hpp"
 #include "tests/can/recording_sink.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 ego_motion_t make_ego(std::int64_t seq = 3) {
   ego_motion_t m{};

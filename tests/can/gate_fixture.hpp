@@ -4,15 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "modules/can/can_gate.hpp"
+#include "platform/numbers.hpp"
 #include "tests/can/recording_sink.hpp"
 
 namespace plumb::test {
 
-inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInvalid = static_cast<double>(CanValidity::kInvalid);
 inline constexpr double kDegraded = static_cast<double>(CanValidity::kDegraded);
 inline constexpr double kValid = static_cast<double>(CanValidity::kValid);

@@ -11,7 +11,6 @@
 namespace plumb {
 namespace {
 
-using test::kDegree;
 using test::kSceneCamera;
 using test::six_cars;
 

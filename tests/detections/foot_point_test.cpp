@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <numbers>
 
+#include "platform/numbers.hpp"
 #include "tests/support/central_difference.hpp"
 
 namespace plumb {
 namespace {
 
 using Vector1d = Eigen::Matrix<double, 1, 1>;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 CameraModel camera(double k1) { return {1242, 375, 721.5, 719.0, 609.6, 172.9, k1, 0.0, 1.65}; }
 

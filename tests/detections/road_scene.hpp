@@ -5,18 +5,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include "modules/detections/detection.hpp"
 #include "modules/detections/road_plane.hpp"
 #include "modules/geometry/camera_model.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb::test {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 inline const CameraModel kSceneCamera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 0.0, 1.65};
 
 struct SceneObject {
@@ -47,7 +44,7 @@ inline Detection seen_one(const SceneObject& object, const RoadPlane& plane) {
   detection.score = 0.9;
   detection.box = {foot_px.x() - half_px, kSceneCamera.project(head).y(), foot_px.x() + half_px,
                    foot_px.y()};
-  detection.truncated_ratio = std::numeric_limits<double>::quiet_NaN();
+  detection.truncated_ratio = kNan;
   return detection;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "modules/ground/cue_covariance.hpp"
+#include "platform/numbers.hpp"
 #include "tests/ground/road_scene.hpp"
 #include "tests/support/central_difference.hpp"
 
@@ -12,7 +13,6 @@ namespace plumb {
 namespace {
 
 constexpr double kMetresPerVo = 1.3;
-constexpr double kDegree = 0.017453292519943295;
 
 /// Three views of one road: now, one step and three steps ago.
 struct Views {

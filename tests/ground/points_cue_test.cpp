@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-constexpr double kMetresPerVo = 1.3;
+constexpr double kVoMetres = 1.3;
 
 struct Seen {
   PointsObservation points;
@@ -35,7 +35,7 @@ Seen see(const test::VoScript& script, double expected_ratio) {
 }
 
 TEST(PointsCue, FindsTheHeightOfRoadPoints) {
-  const Seen seen = see({.metres_per_vo = kMetresPerVo}, 1.0);
+  const Seen seen = see({.metres_per_vo = kVoMetres}, 1.0);
   ASSERT_TRUE(seen.points.ok);
   EXPECT_NEAR(seen.points.ln_height, seen.true_ln_height, 0.01);
   // The centre lies on the plane at that height.
@@ -43,13 +43,13 @@ TEST(PointsCue, FindsTheHeightOfRoadPoints) {
 }
 
 TEST(PointsCue, FindsItWithoutKnowingTheHeight) {
-  const Seen seen = see({.metres_per_vo = kMetresPerVo}, 0.0);
+  const Seen seen = see({.metres_per_vo = kVoMetres}, 0.0);
   ASSERT_TRUE(seen.points.ok);
   EXPECT_NEAR(seen.points.ln_height, seen.true_ln_height, 0.01);
 }
 
 TEST(PointsCue, OutvotesPointsThatStandAboveTheRoad) {
-  const Seen seen = see({.metres_per_vo = kMetresPerVo, .num_points = 60, .num_outliers = 90}, 1.1);
+  const Seen seen = see({.metres_per_vo = kVoMetres, .num_points = 60, .num_outliers = 90}, 1.1);
   ASSERT_TRUE(seen.points.ok);
   EXPECT_NEAR(seen.points.ln_height, seen.true_ln_height, 0.02);
 }

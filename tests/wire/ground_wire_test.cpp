@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 
+#include "platform/numbers.hpp"
 #include "tests/wire/sample_output.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 std::string refusal(const std::function<void(ground_plane_t*, ego_motion_t*)>& change) {
   ground_plane_t plane{};
@@ -79,10 +76,10 @@ TEST(GroundWire, RefusesAPlaneThatIsNoneWhenItSaysItHolds) {
   EXPECT_EQ("", refused_plane([](ground_plane_t*) {}));
   const std::string none = "ground plane: says that the plane holds, but it is none";
   EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->normal_cam[1] = 0.9; }));
-  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->normal_cam[0] = kNaN; }));
+  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->normal_cam[0] = kNan; }));
   EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->height_m = 0.0; }));
   EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->height_m = kInf; }));
-  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->pitch_rad = kNaN; }));
+  EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->pitch_rad = kNan; }));
   EXPECT_EQ("", refused_plane([](ground_plane_t* m) {
               m->status = ground_plane_t::STATUS_INVALID;
               m->height_m = 0.0;
@@ -97,7 +94,7 @@ TEST(GroundWire, RefusesUnknownNumbersInThePlane) {
   EXPECT_EQ("ground plane: unknown cue status",
             refused_plane([](auto* m) { m->cues[2].status = 4; }));
   EXPECT_EQ("ground plane: not a covariance", refused_plane([](auto* m) { m->cov[0][0] = -1.0; }));
-  EXPECT_EQ("", refused_plane([](auto* m) { m->cues[0].height = kNaN; })) << "not observed";
+  EXPECT_EQ("", refused_plane([](auto* m) { m->cues[0].height = kNan; })) << "not observed";
 }
 
 TEST(GroundWire, RefusesAMotionThatIsNone) {
@@ -106,13 +103,13 @@ TEST(GroundWire, RefusesAMotionThatIsNone) {
   EXPECT_EQ("ego motion: a pose is not a pose",
             refused_ego([](auto* m) { m->q_world_cam[3] = 2; }));
   EXPECT_EQ("ego motion: not a covariance",
-            refused_ego([](auto* m) { m->cov_world_cam[5][0] = kNaN; }));
+            refused_ego([](auto* m) { m->cov_world_cam[5][0] = kNan; }));
   const std::string number = "ego motion: a velocity, rate or scale is not a number";
-  EXPECT_EQ(number, refused_ego([](auto* m) { m->velocity_ground_m_s[0] = kNaN; }));
+  EXPECT_EQ(number, refused_ego([](auto* m) { m->velocity_ground_m_s[0] = kNan; }));
   EXPECT_EQ(number, refused_ego([](auto* m) { m->speed_std_m_s = -1.0; }));
   EXPECT_EQ(number, refused_ego([](auto* m) { m->rate_ground_rad_s[2] = kInf; }));
-  EXPECT_EQ(number, refused_ego([](auto* m) { m->log_scale = kNaN; }));
-  EXPECT_EQ("", refused_ego([](auto* m) { m->accel_forward_m_s2 = kNaN; })) << "not observable";
+  EXPECT_EQ(number, refused_ego([](auto* m) { m->log_scale = kNan; }));
+  EXPECT_EQ("", refused_ego([](auto* m) { m->accel_forward_m_s2 = kNan; })) << "not observable";
 }
 
 TEST(GroundWire, TakesRatesThatDoNotHoldWhenTheMotionSaysSo) {
@@ -120,7 +117,7 @@ TEST(GroundWire, TakesRatesThatDoNotHoldWhenTheMotionSaysSo) {
   ego_motion_t ego{};
   to_wire(test::sample_ground_output(), &plane);
   to_wire(test::sample_ground_output(), &ego);
-  ego.log_scale = ego.velocity_ground_m_s[0] = kNaN;
+  ego.log_scale = ego.velocity_ground_m_s[0] = kNan;
   GroundOutput read;
   EXPECT_NE(from_wire(plane, ego, &read), nullptr);
   for (const auto status : {ego_motion_t::STATUS_INITIALIZING, ego_motion_t::STATUS_LOST}) {
@@ -133,7 +130,7 @@ TEST(GroundWire, TakesRatesThatDoNotHoldWhenTheMotionSaysSo) {
 TEST(GroundWire, TakesAStandstillBeforeAnyScaleIsKnown) {
   EXPECT_EQ("", refused_ego([](auto* m) {
               m->status = ego_motion_t::STATUS_STANDSTILL;
-              m->log_scale_std = kNaN;
+              m->log_scale_std = kNan;
             }));
 }
 

@@ -6,13 +6,11 @@
 #include <functional>
 #include <limits>
 
+#include "platform/numbers.hpp"
 #include "tests/wire/sample_output.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 std::string refusal(const std::function<void(vo_motion_t*)>& change) {
   static vo_motion_t message;
@@ -69,7 +67,7 @@ TEST(VoWire, AcceptsWhatALostEstimatorSends) {
   static VoOutput back;
   VoOutput lost;
   lost.reason = VoReason::kNoCalibration;
-  lost.scale_carry_std = kNaN;
+  lost.scale_carry_std = kNan;
   to_wire(lost, &message);
   EXPECT_EQ(nullptr, from_wire(message, &back));
   EXPECT_EQ(VoStatus::kLost, back.status);
@@ -93,24 +91,24 @@ TEST(VoWire, RefusesCountsAndNumbersOutOfRange) {
 
 TEST(VoWire, RefusesPosesThatAreNone) {
   const std::string pose = "VO motion: the relative pose is not a pose";
-  EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->q_prev_cam[0] = kNaN; }));
+  EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->q_prev_cam[0] = kNan; }));
   EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->q_prev_cam[2] += 0.01; }));
   EXPECT_EQ(pose, refusal([](vo_motion_t* m) {
               for (double& q : m->q_prev_cam) q = 0.0;
             }));
   EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->t_prev_cam[1] = kInf; }));
   EXPECT_EQ("VO motion: a window pose is not a pose",
-            refusal([](vo_motion_t* m) { m->t_window_cam[11][2] = kNaN; }));
+            refusal([](vo_motion_t* m) { m->t_window_cam[11][2] = kNan; }));
   EXPECT_EQ("VO motion: window poses are not newest first",
             refusal([](vo_motion_t* m) { m->window_seq[4] = 100; }));
 }
 
 TEST(VoWire, RefusesDeviationsAndPointsThatAreNone) {
   const std::string cov = "VO motion: the covariance is not a covariance";
-  EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][3] = kNaN; }));
+  EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][3] = kNan; }));
   EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][2] = -1e-9; }));
   const std::string carry = "VO motion: scale deviation is neither a deviation nor NaN";
-  EXPECT_EQ("", refusal([](vo_motion_t* m) { m->scale_carry_std = kNaN; }));
+  EXPECT_EQ("", refusal([](vo_motion_t* m) { m->scale_carry_std = kNan; }));
   EXPECT_EQ(carry, refusal([](vo_motion_t* m) { m->scale_carry_std = kInf; }));
   EXPECT_EQ(carry, refusal([](vo_motion_t* m) { m->scale_carry_std = -0.1; }));
   const std::string point = "VO motion: a road point is not a point before the camera";
@@ -129,7 +127,7 @@ TEST(VoWire, IgnoresRowsBeyondTheCounts) {
               m->num_road_points = 3;
               m->road_points_cam[3][0] = std::numeric_limits<float>::quiet_NaN();
               m->num_window = 1;
-              m->q_window_cam[1][0] = kNaN;
+              m->q_window_cam[1][0] = kNan;
             }));
 }
 

@@ -3,15 +3,13 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "platform/input_error.hpp"
+#include "platform/numbers.hpp"
 #include "platform/text.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct MountLine {
   const char* name;
@@ -21,9 +19,9 @@ struct MountLine {
 };
 
 constexpr MountLine kMountLines[] = {
-    {"pitch", "deg", kDegrees, &Mount::pitch_rad},
-    {"roll", "deg", kDegrees, &Mount::roll_rad},
-    {"yaw", "deg", kDegrees, &Mount::yaw_rad},
+    {"pitch", "deg", degrees(1.0), &Mount::pitch_rad},
+    {"roll", "deg", degrees(1.0), &Mount::roll_rad},
+    {"yaw", "deg", degrees(1.0), &Mount::yaw_rad},
     {"height", "m", 1.0, &Mount::height_m},
 };
 

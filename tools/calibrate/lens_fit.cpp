@@ -12,12 +12,11 @@
 #include <nlopt.hpp>
 
 #include "modules/vo/vo.hpp"
+#include "platform/numbers.hpp"
 #include "tools/support/stop_flag.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLostResidual_px = 1.0;
 constexpr std::size_t kBlockImages = 10;
 constexpr double kFewestBlocks = 5.0;

@@ -1,16 +1,14 @@
 #include "tools/draw/figures.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "platform/input_error.hpp"
+#include "platform/numbers.hpp"
 #include "platform/text.hpp"
 #include "tools/support/csv_table.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string text_of(const CsvTable& table, std::size_t row, const char* column) {
   return std::string(table.text(row, column).value_or("-"));
@@ -36,8 +34,8 @@ FrameFigures figures_of(const CsvTable& table, std::size_t row) {
              text_of(table, row, "vo_status").c_str(), text_of(table, row, "plane_status").c_str(),
              text_of(table, row, "ego_status").c_str()),
       figure(table, row, "speed", "speed_m_s", "speed_std_m_s", 1.0, "m/s"),
-      figure(table, row, "pitch", "pitch_rad", "pitch_std_rad", kDegrees, "deg"),
-      figure(table, row, "roll", "roll_rad", "roll_std_rad", kDegrees, "deg"),
+      figure(table, row, "pitch", "pitch_rad", "pitch_std_rad", degrees(1.0), "deg"),
+      figure(table, row, "roll", "roll_rad", "roll_std_rad", degrees(1.0), "deg"),
       figure(table, row, "height", "height_m", "height_std_m", 1.0, "m"),
   };
   return figures;

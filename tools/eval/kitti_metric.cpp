@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -27,10 +27,9 @@ MeanError mean_of(const std::vector<SegmentError>& segments, Keep keep) {
     t_sum += segment.t_ratio;
     r_sum += segment.r_rad_m;
   }
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const double n = mean.num_segments;
-  mean.t_percent = n > 0.0 ? 100.0 * t_sum / n : nan;
-  mean.r_deg_m = n > 0.0 ? r_sum / n * 180.0 / std::numbers::pi : nan;
+  mean.t_percent = n > 0.0 ? 100.0 * t_sum / n : kNan;
+  mean.r_deg_m = n > 0.0 ? degrees(r_sum / n) : kNan;
   return mean;
 }
 

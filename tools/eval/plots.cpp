@@ -1,9 +1,9 @@
 #include "tools/eval/plots.hpp"
 
 #include <Eigen/LU>
-#include <numbers>
 
 #include "platform/input_error.hpp"
+#include "platform/numbers.hpp"
 #include "tools/eval/gnuplot.hpp"
 
 namespace plumb {
@@ -88,8 +88,8 @@ std::vector<fs::path> draw_plots(const PlaneReport& report, const fs::path& fold
     for (Curve* curve : {&true_height, &height, &true_pitch, &pitch}) curve->x.push_back(frame);
     true_height.y.push_back(pair.true_height_m);
     height.y.push_back(pair.height_m);
-    true_pitch.y.push_back(pair.true_pitch_rad * 180.0 / std::numbers::pi);
-    pitch.y.push_back(pair.pitch_rad * 180.0 / std::numbers::pi);
+    true_pitch.y.push_back(degrees(pair.true_pitch_rad));
+    pitch.y.push_back(degrees(pair.pitch_rad));
   }
   const fs::path file = folder / ("planes." + format);
   draw({{"camera height above the road", "frame", "m", {true_height, height}, false, false},

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "platform/input_error.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -54,10 +54,9 @@ Json to_json(const SequenceReport& sequence) {
 }
 
 Json to_json(const AngleError& error) {
-  const double degrees = 180.0 / std::numbers::pi;
-  return {{"mean_deg", error.mean_rad * degrees},
-          {"std_deg", error.std_rad * degrees},
-          {"rms_deg", error.rms_rad * degrees}};
+  return {{"mean_deg", degrees(error.mean_rad)},
+          {"std_deg", degrees(error.std_rad)},
+          {"rms_deg", degrees(error.rms_rad)}};
 }
 
 Json to_json(const Calibration& calibration) {

@@ -1,14 +1,12 @@
 #include "tools/eval/report_text.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "platform/numbers.hpp"
 #include "platform/text.hpp"
 
 namespace plumb {
 namespace {
-
-double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
 /// Width 9; "-" stands for a value that there is none of.
 std::string cell(double value, int decimals) {

@@ -3,12 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "modules/detections/detection_cue.hpp"
 #include "modules/detections/foot_point.hpp"
 #include "modules/objects/objects.hpp"
+#include "platform/numbers.hpp"
 #include "platform/text.hpp"
 #include "tools/kitti_tracking/kitti_tracking.hpp"
 
@@ -81,8 +81,7 @@ class SequenceRun {
     int last = -1;
     for (const TrackingRow& row : labels_) last = std::max(last, row.frame);
     for (int frame = 0; frame <= last; ++frame) step(frame);
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    result_.pitch_rms_rad = num_pitches_ > 0 ? std::sqrt(pitch_sum_ / num_pitches_) : nan;
+    result_.pitch_rms_rad = num_pitches_ > 0 ? std::sqrt(pitch_sum_ / num_pitches_) : kNan;
     return result_;
   }
 
@@ -189,7 +188,7 @@ class SequenceRun {
 };
 
 double mean(double sum, std::size_t count) {
-  return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+  return count > 0 ? sum / static_cast<double>(count) : kNan;
 }
 
 std::string row_of(const SequenceDepth& sequence) {
@@ -201,8 +200,7 @@ std::string row_of(const SequenceDepth& sequence) {
     }
     text += format(" %5.1f", errors->mean_nees());
   }
-  constexpr double kDegrees = 57.29577951308232;
-  return text + format(" | %6.2f\n", kDegrees * sequence.pitch_rms_rad);
+  return text + format(" | %6.2f\n", degrees(sequence.pitch_rms_rad));
 }
 
 }  // namespace

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "platform/numbers.hpp"
+
 namespace plumb {
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return kNan;

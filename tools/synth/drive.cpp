@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "tools/synth/random.hpp"
 
@@ -14,7 +15,6 @@ constexpr double kTrack = 1.55;
 constexpr double kPitchPerAccel = 0.0042;  ///< [rad per m/s2] dive and squat: 0.24 degrees
 constexpr double kRollPerAccel = 0.0052;   ///< [rad per m/s2] lean in bends: 0.3 degrees
 constexpr double kRoughStep = 0.05;        ///< [m]
-constexpr double kPi = 3.14159265358979323846;
 
 /// One spring: follows its reference, second order.
 struct Spring {
@@ -129,9 +129,9 @@ void Drive::integrate() {
   const std::size_t n = s.size();
   const Roughness roughness(route.length_m(), route.setting.roughness * config_.suspension,
                             config_.seed);
-  Spring heave{2.0 * kPi * 1.25, 0.35};
-  Spring pitch{2.0 * kPi * 1.5, 0.35};
-  Spring roll{2.0 * kPi * 1.4, 0.3};
+  Spring heave{2.0 * std::numbers::pi * 1.25, 0.35};
+  Spring pitch{2.0 * std::numbers::pi * 1.5, 0.35};
+  Spring roll{2.0 * std::numbers::pi * 1.4, 0.3};
   Stance before;
   Stance ground_before;
   states_.resize(n);

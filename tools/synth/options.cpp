@@ -5,12 +5,11 @@
 #include <cstdio>
 #include <thread>
 
+#include "platform/numbers.hpp"
 #include "tools/synth/random.hpp"
 
 namespace plumb::synth {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kUnset = 1e8;
 
 void parse_size(const std::string& text, CameraModel& camera) {

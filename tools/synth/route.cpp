@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tools/synth/random.hpp"
 
 namespace plumb::synth {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-double wrap_angle(double a) { return std::remainder(a, 2.0 * kPi); }
+double wrap_angle(double a) { return std::remainder(a, 2.0 * std::numbers::pi); }
 
 /// Fills heading and curvature of all points by differences of their positions.
 void derive_heading(std::vector<RoutePoint>& points) {

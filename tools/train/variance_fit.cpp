@@ -4,8 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -91,7 +92,6 @@ void ScoreSum::add(double error, double var) {
 }
 
 VarianceScore ScoreSum::mean() const {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   if (sum_.num == 0) return {0, kNan, kNan};
   return {sum_.num, sum_.nees / sum_.num, sum_.log_likelihood / sum_.num};
 }

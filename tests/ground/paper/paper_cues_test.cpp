@@ -11,7 +11,7 @@ namespace plumb {
 namespace {
 
 constexpr double kRho = 1.5;
-constexpr double kMu = 50.0;
+constexpr double kVoteMu = 50.0;
 
 /// Two images of the rendered road, the second `step` frames after the first, and the truth in it.
 struct Views {
@@ -148,7 +148,7 @@ TEST(PaperPointsCue, FindsTheHeightOfARenderedRoadBySift) {
   matcher.detect(0, views.old_image.view());
   matcher.detect(1, views.image.view());
   const auto matches = matcher.match(1, 0);
-  PaperPointsCue cue(views.camera, views.truth.normal_cam, kMu);
+  PaperPointsCue cue(views.camera, views.truth.normal_cam, kVoteMu);
   const PaperPointsObservation seen = cue.measure(matches, views.T_old_cam);
   ASSERT_TRUE(seen.ok) << matches.size() << " matches";
   EXPECT_NEAR(seen.height, views.truth.height_m, 0.03 * views.truth.height_m);
@@ -160,7 +160,7 @@ TEST(PaperPointsCue, FindsTheHeightOfARenderedRoadBySift) {
 
   // The calibrated pitch is all it knows of the pitch: half a degree of it is 4 % of height.
   const Eigen::Vector3d pitched = exp_so3({0.009, 0.0, 0.0}) * views.truth.normal_cam;
-  PaperPointsCue misled(views.camera, pitched, kMu);
+  PaperPointsCue misled(views.camera, pitched, kVoteMu);
   EXPECT_GT(std::abs(misled.measure(matches, views.T_old_cam).height / seen.height - 1.0), 0.02);
 }
 
