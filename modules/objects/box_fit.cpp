@@ -18,10 +18,12 @@ constexpr double kFarthest_m = 500.0;
 using Gain = Eigen::Matrix<double, kStateSize, 4>;
 using Edges = Eigen::Matrix<double, 4, kStateSize>;
 
-/// What the plane's roll and height, which the state leaves out, do to the edges.
-Eigen::Matrix4d plane_noise(const SeenCuboid& seen, const RoadPlane& plane) {
+/// What the plane's roll and height and the inset, which the state leaves out, do to the edges.
+Eigen::Matrix4d shared_noise(const SeenCuboid& seen, const RoadPlane& plane,
+                             const Contact& contact) {
   const Eigen::Matrix<double, 4, 2> J = seen.J_plane.rightCols<2>();
-  return J * plane.cov.bottomRightCorner<2, 2>() * J.transpose();
+  return J * plane.cov.bottomRightCorner<2, 2>() * J.transpose() +
+         contact.inset_std_m * contact.inset_std_m * seen.J_inset * seen.J_inset.transpose();
 }
 
 constexpr double kNotSeen = 1e12;  ///< [px^2] a variance that drops an edge
@@ -53,7 +55,7 @@ StateVector limited(const StateVector& from, const StateVector& to) {
 
 }  // namespace
 
-BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane, double contact_inset_m,
+BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane, const Contact& contact,
                      const MeasuredBox& box, const StateEstimate& prior) {
   BoxFitResult result;
   StateVector x = prior.x;
@@ -61,10 +63,10 @@ BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane, double c
   Gain K = Gain::Zero();
   Eigen::Matrix4d S = Eigen::Matrix4d::Identity();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const auto seen = see_cuboid(camera, plane, x, contact_inset_m);
+    const auto seen = see_cuboid(camera, plane, x, contact.inset_m);
     if (!seen) return result;
     const Edges& H = seen->J_state;
-    const Eigen::Matrix4d shared = plane_noise(*seen, plane);
+    const Eigen::Matrix4d shared = shared_noise(*seen, plane, contact);
     S = H * prior.P * H.transpose() + shared;
     const Eigen::Vector4d var_px2 = edge_variances(box, *seen);
     S.diagonal() += var_px2.cwiseQuotient(weight);
@@ -73,7 +75,10 @@ BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane, double c
     const Eigen::Vector4d residual = box.edges_px - seen->edges_px;
     const Eigen::Vector4d innovation = residual - H * (prior.x - x);
     result.cost = innovation.dot(solver.solve(innovation));
-    if (iteration == 0) result.chi2 = result.cost;
+    if (iteration == 0) {
+      result.chi2 = result.cost;
+      result.log_det = 2.0 * solver.matrixLLT().diagonal().array().log().sum();
+    }
     const StateVector next = limited(x, prior.x + K * innovation);
     if (!next.allFinite() || next.head<2>().norm() > kFarthest_m) return result;
     const Eigen::Vector4d left = residual - H * (next - x);

@@ -26,17 +26,24 @@ struct MeasuredBox {
   std::array<bool, 4> cut{};
 };
 
+/// How far inside its outline an object touches the road.
+struct Contact {
+  double inset_m = 0.0;
+  double inset_std_m = 0.0;
+};
+
 struct BoxFitResult {
   bool ok = false;
   StateEstimate estimate;
-  double chi2 = 0.0;  ///< of the box against the prior, before anything loses weight
+  double chi2 = 0.0;     ///< of the box against the prior, before anything loses weight
+  double log_det = 0.0;  ///< of the covariance that chi2 is measured with [ln px^8]
   double cost = 0.0;  ///< the same about the solution, with the weights: compares fits of one box
 };
 
 /// Iterated Kalman update. Edges that disagree with the rest lose weight (Student's t). Not ok when
 /// the object cannot be seen from here or the result is not finite; the prior then stands.
 [[nodiscard]] BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane,
-                                   double contact_inset_m, const MeasuredBox& box,
+                                   const Contact& contact, const MeasuredBox& box,
                                    const StateEstimate& prior);
 
 }  // namespace plumb

@@ -66,6 +66,8 @@ class View {
     J(kLogRatio) = by_ratio;
     J(kLogWidth) = by_ratio + J_px.dot(across_axis_) * corner.side_y * half_width_;
     J(kLogHeight) = corner.roof ? height_ * J_px.dot(up_) : 0.0;
+    seen->J_inset(edge) =
+        corner.inset ? -J_px.dot(corner.side_x * along_axis_ + corner.side_y * across_axis_) : 0.0;
     J(kPlaneError) = J_px.dot(q.x() * up_ - q.z() * forward_);
     seen->J_plane(edge, 0) = J(kPlaneError);
     seen->J_plane(edge, 1) =

@@ -40,7 +40,8 @@ struct SeenCuboid {
   Eigen::Vector4d edges_px = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 4, kStateSize> J_state = Eigen::Matrix<double, 4, kStateSize>::Zero();
   Eigen::Matrix<double, 4, 3> J_plane =
-      Eigen::Matrix<double, 4, 3>::Zero();  ///< (pitch, roll, ln height)
+      Eigen::Matrix<double, 4, 3>::Zero();            ///< (pitch, roll, ln height)
+  Eigen::Vector4d J_inset = Eigen::Vector4d::Zero();  ///< (contact inset)
 };
 
 /// The outermost corners of the cuboid in the image. The lower edge is that of the contact points,

@@ -1,7 +1,9 @@
-/// One object followed over frames: a Kalman filter over its 3D box on the road.
+/// One object followed over frames: two Kalman filters over its 3D box on the road, one for an
+/// object that moves and one for an object that stands, and the odds between them. What stands is
+/// seen from ever new places, so its distance follows from the camera's way alone.
 ///
 /// Frames  ground of the newest image: x forward, y left, z up, on the road under the camera.
-/// Memory  one state of 9 and its covariance.
+/// Memory  two states of 9 and their covariances.
 #pragma once
 
 #include <cstdint>
@@ -45,16 +47,27 @@ class ObjectTrack {
   /// Heading from the velocity over ground, where there is one.
   void align_with_motion();
 
-  [[nodiscard]] const StateEstimate& estimate() const { return estimate_; }
+  /// Of the likelier filter.
+  [[nodiscard]] const StateEstimate& estimate() const { return stands() ? standing_ : moving_; }
+  [[nodiscard]] bool stands() const { return over_ground_ && standing_log_odds_ > kStandsLogOdds; }
   [[nodiscard]] ObjectClass object_class() const { return object_class_; }
   /// Velocities are over ground; else relative to the camera.
   [[nodiscard]] bool over_ground() const { return over_ground_; }
 
  private:
+  static constexpr double kStandsLogOdds = 3.0;
+
   [[nodiscard]] StateEstimate prior(const TrackView& view, const Detection& detection,
                                     const MeasuredBox& box, double yaw_rad) const;
 
-  StateEstimate estimate_;
+  /// Odds and survival of the two filters after a box was fitted to both. False: it fits neither.
+  bool weigh(const BoxFitResult& moving, const BoxFitResult& standing);
+  /// The object may stand: what the moving filter would hold if it did.
+  void seed_standing();
+
+  StateEstimate moving_;
+  StateEstimate standing_;
+  double standing_log_odds_ = 0.0;
   ObjectClass object_class_ = ObjectClass::kUnknown;
   bool over_ground_ = false;
   double heading_rad_ = 0.0;  ///< the heading that the start preferred

@@ -26,10 +26,13 @@ struct ObjectsConfig {
   double unknown_height_std_m = 0.50;
 
   double contact_inset_m = 0.20;
+  double contact_inset_std_m = 0.20;
   double accel_std_m_s2 = 2.5;
   double relative_accel_std_m_s2 = 10.0;
   double start_speed_std_m_s = 10.0;
   double plane_error_time_s = 1.0;
+  double cross_slope_std = 0.02;
+  double foot_height_std_m = 0.05;
   double max_coast_s = 1.0;
   double least_overlap_ratio = 0.3;
 
@@ -83,6 +86,7 @@ struct ObjectsConfig {
           "1-sigma of objects without a class");
     field("objects.contact_inset_m", c.contact_inset_m, 0.0, 1.0,
           "how far inside its outline a vehicle touches the road");
+    field("objects.contact_inset_std_m", c.contact_inset_std_m, 0.0, 1.0, "1-sigma of that");
     field("objects.accel_std_m_s2", c.accel_std_m_s2, 0.1, 20.0,
           "1-sigma of an object's acceleration");
     field("objects.relative_accel_std_m_s2", c.relative_accel_std_m_s2, 0.1, 50.0,
@@ -91,6 +95,10 @@ struct ObjectsConfig {
           "1-sigma of the velocity of a new object");
     field("objects.plane_error_time_s", c.plane_error_time_s, 0.05, 30.0,
           "time over which an error of the plane keeps its value");
+    field("objects.cross_slope_std", c.cross_slope_std, 0.0, 0.2,
+          "1-sigma of the road's slope between the camera's lane and an object beside it");
+    field("objects.foot_height_std_m", c.foot_height_std_m, 0.0, 0.5,
+          "1-sigma of the kerbs and bumps that an object stands on");
     field("objects.max_coast_s", c.max_coast_s, 0.1, 5.0,
           "a track that was not seen for longer ends");
     field("objects.least_overlap_ratio", c.least_overlap_ratio, 0.05, 0.95,

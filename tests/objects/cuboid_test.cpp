@@ -68,6 +68,10 @@ TEST(Cuboid, DerivativesAgreeWithDifferences) {
             by_plane, Eigen::Vector3d(-0.01, roll, std::log(1.65)), 1e-6);
         EXPECT_LT((J_state - seen->J_state).norm(), 1e-5 * seen->J_state.norm());
         EXPECT_LT((J_plane - seen->J_plane).norm(), 1e-5 * seen->J_plane.norm());
+        const Eigen::Vector4d by_inset = (see_cuboid(camera, plane, state, 0.2 + 1e-6)->edges_px -
+                                          see_cuboid(camera, plane, state, 0.2 - 1e-6)->edges_px) /
+                                         2e-6;
+        EXPECT_LT((by_inset - seen->J_inset).norm(), 1e-5 * seen->J_inset.norm());
       }
     }
   }
