@@ -7,6 +7,7 @@
 #include "modules/detect/detect_config.hpp"
 #include "modules/detections/detections_config.hpp"
 #include "modules/ground/ground_config.hpp"
+#include "modules/ground/mount_config.hpp"
 #include "modules/objects/objects_config.hpp"
 #include "modules/vo/vo_config.hpp"
 
@@ -18,6 +19,7 @@ struct PlumbConfig {
   DetectConfig detect;
   DetectionsConfig detections;
   GroundConfig ground;
+  MountConfig mount;
   ObjectsConfig objects;
   CanConfig can;
 
@@ -28,6 +30,7 @@ struct PlumbConfig {
     DetectConfig::visit(c.detect, field);
     DetectionsConfig::visit(c.detections, field);
     GroundConfig::visit(c.ground, field);
+    MountConfig::visit(c.mount, field);
     ObjectsConfig::visit(c.objects, field);
     CanConfig::visit(c.can, field);
   }

@@ -17,6 +17,7 @@ inline constexpr Channel kCameraCalibration{"CAMERA_CALIBRATION", "camera", 1.0,
 inline constexpr Channel kVoMotion{"VO_MOTION", "vo", 10.0, 300'000};
 inline constexpr Channel kGroundPlane{"GROUND_PLANE", "ground", 10.0, 300'000};
 inline constexpr Channel kEgoMotion{"EGO_MOTION", "ground", 10.0, 300'000};
+inline constexpr Channel kMount{"MOUNT", "ground", 1.0, 3'000'000};
 inline constexpr Channel kDetections{"DETECTIONS", "detect", 10.0, 500'000};
 inline constexpr Channel kObjects{"OBJECTS", "objects", 10.0, 300'000};
 inline constexpr Channel kGroundTruth{"GROUND_TRUTH", "log", 10.0, 0};

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "modules/ground/complete_reader.hpp"
 #include "platform/config.hpp"
 
 namespace plumb {
@@ -19,32 +20,6 @@ void visit_head(std::string& schema, int& version, Model& model, Visit&& field) 
   field("model.command", model.origin.command, "that wrote this file");
   field("model.date", model.origin.date, "UTC");
 }
-
-/// Reads like ConfigReader, and wants every key to be there.
-class CompleteReader {
- public:
-  CompleteReader(const std::string& path, ConfigFile* file)
-      : path_(path), file_(file), reader_(file) {}
-
-  template <typename T, typename... Rest>
-  void operator()(const char* key, T& value, Rest&&... rest) {
-    need(key);
-    reader_(key, value, std::forward<Rest>(rest)...);
-  }
-  void operator()(const char* key, std::string& value, const std::vector<std::string>& choices,
-                  const char* meaning) {
-    need(key);
-    reader_(key, value, choices, meaning);
-  }
-
- private:
-  void need(const char* key) const {
-    if (!file_->has(key)) throw ConfigError(path_ + ": " + key + " is missing");
-  }
-  const std::string& path_;
-  ConfigFile* file_;
-  ConfigReader reader_;
-};
 
 void check_bounds(const std::string& path, const char* name, double low, double high) {
   if (low <= high) return;

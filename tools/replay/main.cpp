@@ -125,8 +125,8 @@ void print_summary(const Arguments& arguments, const Replay& replay, const Outpu
     std::cout << format("  %lld frames are missing by their numbers\n",
                         static_cast<long long>(replay.num_lost()));
   }
-  std::cout << outputs.statuses().text() << stage_table("vo", replay.vo_timer())
-            << stage_table("ground", replay.ground_timer());
+  std::cout << outputs.statuses().text() << mount_text(replay.mount())
+            << stage_table("vo", replay.vo_timer()) << stage_table("ground", replay.ground_timer());
   if (!arguments.can.empty()) {
     std::cout << format("%s: %lld CAN frames\n", arguments.can.c_str(),
                         static_cast<long long>(outputs.num_can_frames()));

@@ -15,8 +15,10 @@ Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink,
           [this](const ground_plane_t& plane, const ego_motion_t& ego) {
             plane_ = &plane;
             ego_ = &ego;
+            if (ground_.output() != nullptr) mount_.update(*ground_.output());
           },
           load_ground_model(config.ground.model_file)),
+      mount_(config.mount),
       objects_(config.detections, config.objects, config.ground,
                [this](const objects_t& objects) { take_objects(objects); }),
       can_(config.can),

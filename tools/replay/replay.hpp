@@ -58,6 +58,8 @@ class Replay {
   [[nodiscard]] std::int64_t num_lost() const { return vo_.num_lost(); }
   [[nodiscard]] bool calibrated() const { return vo_.calibrated(); }
   [[nodiscard]] const GroundNode& ground() const { return ground_; }
+  /// From this log alone: a state file is not read.
+  [[nodiscard]] const MountReport& mount() const { return mount_.report(); }
   [[nodiscard]] const StageTimer& vo_timer() const { return vo_timer_; }
   [[nodiscard]] const StageTimer& ground_timer() const { return ground_timer_; }
 
@@ -73,6 +75,7 @@ class Replay {
   StageTimer ground_timer_;
   VoNode vo_;
   GroundNode ground_;
+  MountCheck mount_;
   ObjectsNode objects_;
   CanOutput can_;
   CanSink* can_sink_;

@@ -1,5 +1,8 @@
 #include "tools/replay/summary.hpp"
 
+#include <array>
+
+#include "platform/numbers.hpp"
 #include "platform/text.hpp"
 #include "tools/replay/names.hpp"
 
@@ -35,6 +38,19 @@ std::string StatusCount::text() const {
                      line("plane", plane_, plane_status_name) + line("ego", ego_, ego_status_name);
   if (num_refused_ > 0) text += format("  refused %d\n", num_refused_);
   return text;
+}
+
+std::string mount_text(const MountReport& report) {
+  constexpr std::array<const char*, 4> kStatus{"collecting", "unsteady", "steady", "moved"};
+  const auto angles = [](const Eigen::Vector3d& rad) {
+    return format("pitch %+.2f, roll %+.2f, yaw %+.2f deg", degrees(rad.x()), degrees(rad.y()),
+                  degrees(rad.z()));
+  };
+  std::string text = format("mount   %s", kStatus[static_cast<std::size_t>(report.status)]);
+  if (report.reference) text += ", reference " + angles(report.reference->mean_rad);
+  if (!report.reference) text += format(", %.0f %% of a reference", 100.0 * report.progress);
+  if (report.recent_rad.allFinite()) text += "; now " + angles(report.recent_rad);
+  return text + "\n";
 }
 
 std::string stage_table(const std::string& program, const StageTimer& timer) {

@@ -22,6 +22,9 @@ class StatusCount {
   int num_refused_ = 0;
 };
 
+/// What the mount check found, in one line.
+[[nodiscard]] std::string mount_text(const MountReport& report);
+
 /// Table of the stages of `program`: frames, median, 99th percentile and maximum in milliseconds.
 [[nodiscard]] std::string stage_table(const std::string& program, const StageTimer& timer);
 
