@@ -95,6 +95,28 @@ TEST(Route, PoseRouteFollowsTheFileAndGivesOnePlaceOneHeight) {
   EXPECT_NEAR(height, first.z_m, 0.15) << "the file says " << 0.0045 * 380;
 }
 
+TEST(Route, ATruthThatRisesAtRestMakesNoHill) {
+  const test::TempFolder folder;
+  const std::filesystem::path file = folder / "settling.txt";
+  {
+    std::ofstream out(file);
+    double z_m = 0.0, y_m = 0.0;
+    for (int i = 0; i < 200; ++i) {
+      out << "1 0 0 0 0 1 0 " << y_m << " 0 0 1 " << z_m << "\n";
+      const bool at_rest = i >= 60 && i < 90;
+      z_m += at_rest ? 0.02 : 0.8;
+      y_m -= at_rest ? 0.19 : 0.04;  // y points down: a street of 5 %
+    }
+  }
+  const Route route = make_pose_route(file, 0, -1, 10.0, 1.68, 1);
+  double steepest = 0.0;
+  for (double s = route.start_m; s < route.start_m + 120.0; s += 1.0) {
+    steepest = std::max(steepest, std::abs(route.at(s + 1.0).z_m - route.at(s).z_m));
+  }
+  EXPECT_LT(steepest, 0.12);
+  EXPECT_NEAR(route.at(route.start_m + 120.0).z_m - route.at(route.start_m).z_m, 6.0, 0.5);
+}
+
 TEST(Route, PoseFileErrorsNameFileAndLine) {
   const test::TempFolder folder;
   const std::filesystem::path file = folder / "bad_poses.txt";

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kNodeStep = 5.0;       ///< [m] between the nodes whose heights are made consistent
 constexpr double kRevisitReach = 14.0;  ///< [m] passes nearer than this share a road
+constexpr double kSteepest = 0.2;       ///< no street rises by more per metre
 constexpr double kRevisitApart = 60.0;  ///< [m] along the route before it counts as another pass
 
 /// KITTI world (x right, y down, z forward) to map (x forward, y left, z up).
@@ -129,6 +130,19 @@ void make_heights_consistent(std::vector<RoutePoint>& points) {
   }
 }
 
+/// Truth rises by metres while a satellite fix settles, be the car at rest; what is too steep for a
+/// street is left out, and everything after it shifts.
+void leave_out_jumps(std::vector<RoutePoint>& points) {
+  double before_m = points.front().z_m;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double step_m = (points[i].p_map - points[i - 1].p_map).norm();
+    const double rise_m = points[i].z_m - before_m;
+    before_m = points[i].z_m;
+    const bool jump = std::abs(rise_m) > kSteepest * step_m;
+    points[i].z_m = points[i - 1].z_m + (jump ? 0.0 : rise_m);
+  }
+}
+
 void make_schedule(Route& route, const std::vector<double>& row_s, double source_rate_hz) {
   const double duration_s = static_cast<double>(row_s.size() - 1) / source_rate_hz;
   const double scale = (route.length_m()) / std::max(1e-9, row_s.back());
@@ -174,6 +188,7 @@ Route make_pose_route(const std::filesystem::path& file, int first, int last, do
     route.setting.edge_lines = true;
     route.setting.side_road_m = 160.0;
   }
+  leave_out_jumps(route.points);
   extend(route, 80.0, 350.0);
   for (double& s : route.schedule.s_m) s += route.start_m;
   std::vector<double> z;
