@@ -247,13 +247,17 @@ void Pipeline::report_fit(const PoseFit& pose) {
     std::nth_element(scratch_.begin(), middle, scratch_.end());
     out_.median_flow_px = *middle;
   }
+  report_covariance(pose, last_pose());
+}
+
+void Pipeline::report_covariance(const PoseFit& pose, const Se3& T_prev_world) {
   // T_prev_cam = T_prev_world T_world_cam: for T_cam_world <- (exp(w), d), t moves by -R_prev_cam d and R by exp(-w)
   // on the right.
   Matrix6d information = pose.information;
   information.diagonal().array() += 1e-9;
   const Matrix6d cov = kCovarianceInflation * information.inverse();
   Matrix6d J = -Matrix6d::Identity();
-  J.topLeftCorner<3, 3>() = -(last_pose().R * pose.T_cam_world.R.transpose());
+  J.topLeftCorner<3, 3>() = -(T_prev_world.R * pose.T_cam_world.R.transpose());
   out_.cov_prev_cam = J * cov * J.transpose();
 }
 

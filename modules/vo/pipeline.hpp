@@ -40,6 +40,8 @@ class Pipeline {
   void drop_gross(int slot);
   void drop_outliers();
   void report_fit(const PoseFit& fit);
+  /// Of the motion since the image at T_prev_world.
+  void report_covariance(const PoseFit& pose, const Se3& T_prev_world);
   void finish(const VoInput& input);
 
   // holding.cpp: standing still and turning on the spot

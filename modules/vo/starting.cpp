@@ -195,6 +195,10 @@ void Pipeline::adopt_two_views(const TwoView& views, double distance) {
   drop_outliers();
   keyframes_.trim_recent(tracks_, window_);
   out_.num_inliers = static_cast<int>(tracks_.active().size());
+  const Se3 T_now_world = window_[newest].T_cam_world;
+  const bool linked = window_.num_history() > 1;
+  report_covariance(fit(T_now_world, 1),
+                    linked ? window_.past_pose(window_.history()[1]) : T_now_world);
   out_.is_keyframe = true;
   out_.num_new = keyframes_.spawn(newest, image(), tracks_, window_);
 }

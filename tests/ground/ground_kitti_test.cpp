@@ -1,6 +1,7 @@
 /// VO and ground on real drives against lidar planes and poses. Skipped where the drives are not.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -95,6 +96,14 @@ struct Errors {
   }
 };
 
+/// Smallest eigenvalue of the correlation matrix: below zero no distribution has this covariance.
+double least_correlation(const Matrix6d& cov) {
+  const Vector6d scale = cov.diagonal().cwiseSqrt().cwiseInverse();
+  const Matrix6d correlation = scale.asDiagonal() * cov * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Matrix6d>(correlation, Eigen::EigenvaluesOnly)
+      .eigenvalues()(0);
+}
+
 class GroundOnKitti : public testing::TestWithParam<std::string> {};
 
 TEST_P(GroundOnKitti, AgreesWithLidarAndPosesAndAllocatesNothing) {
@@ -128,6 +137,10 @@ TEST_P(GroundOnKitti, AgreesWithLidarAndPosesAndAllocatesNothing) {
     const GroundOutput& out = ground->update({&motion, view}, probe);
     num_mallocs += test::g_num_mallocs.load() - before;
     distance_m = out.ego.distance_m;
+    if (out.ego.status == EgoStatus::kOk) {
+      EXPECT_GT(least_correlation(out.ego.cov_prev_cam), 0.0) << k;
+      EXPECT_GT(least_correlation(out.ego.cov_world_cam), 0.0) << k;
+    }
     const auto truth = planes.find(static_cast<int>(k));
     if (truth != planes.end() && out.plane.status == GroundStatus::kOk) {
       errors.add(out.plane, truth->second);

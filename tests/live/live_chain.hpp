@@ -20,6 +20,7 @@ struct LiveResult {
   bool played = false;  ///< lcm-logplayer ended well
   Messages planes;      ///< bytes on GROUND_PLANE, in order
   Messages egos;
+  Messages mounts;
   process_health_t vo;  ///< the newest report
   process_health_t ground;
   process_health_t can;
@@ -55,6 +56,7 @@ class LiveChain {
     }
     result.planes = std::move(planes_);
     result.egos = std::move(egos_);
+    result.mounts = std::move(mounts_);
     result.vo = vo_.newest;
     result.ground = ground_.newest;
     result.can = can_.newest;
@@ -98,10 +100,13 @@ class LiveChain {
   std::int64_t last_message_us_ = 0;
   LiveResult::Messages planes_;
   LiveResult::Messages egos_;
+  LiveResult::Messages mounts_;
   RawSubscriber plane_in_{bus_, kGroundPlane, Input::kOccasional,
                           [this](RawSubscriber::Bytes b) { return keep(&planes_, b); }};
   RawSubscriber ego_in_{bus_, kEgoMotion, Input::kOccasional,
                         [this](RawSubscriber::Bytes b) { return keep(&egos_, b); }};
+  RawSubscriber mount_in_{bus_, kMount, Input::kOccasional,
+                          [this](RawSubscriber::Bytes b) { return keep(&mounts_, b); }};
   HealthOf vo_{bus_, kHealthVo};
   HealthOf ground_{bus_, kHealthGround};
   HealthOf can_{bus_, kHealthCan};
