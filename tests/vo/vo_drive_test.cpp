@@ -1,6 +1,8 @@
 /// The whole odometry on rendered drives whose truth is exact.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "tests/vo/drive_fixture.hpp"
@@ -33,6 +35,25 @@ TEST(Drive, AheadAndThroughABendItMeasuresEveryMotion) {
     EXPECT_EQ(d.said()[i].prev_seq, static_cast<std::int64_t>(i) - 1);
     EXPECT_EQ(d.said()[i].scale_epoch, 0);
   }
+}
+
+TEST(Drive, EveryMotionFromTheFirstOnKnowsItsDeviation) {
+  const std::vector<Se3> poses = drive(15, 0.8);
+  Drive d;
+  std::size_t num_ok = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const VoOutput& out = d.see(poses[i]);
+    if (out.status != VoStatus::kOk) continue;
+    ++num_ok;
+    const Eigen::LLT<Matrix6d> factor(out.cov_prev_cam);
+    ASSERT_EQ(factor.info(), Eigen::Success) << i;
+    EXPECT_GT(out.cov_prev_cam.diagonal().minCoeff(), 1e-12) << i;
+    const Se3 truth = poses[i - 1].inverse() * poses[i];
+    const Eigen::Vector3d off = log_so3(truth.R.transpose() * out.T_prev_cam.R);
+    const Eigen::Matrix3d turn_cov = out.cov_prev_cam.bottomRightCorner<3, 3>();
+    EXPECT_LT(off.dot(turn_cov.inverse() * off), 25.0) << i;
+  }
+  EXPECT_GE(num_ok, poses.size() - 2);
 }
 
 TEST(Drive, TheWindowLinksBackToTheFirstFrameWhenItStarts) {
