@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "modules/ground/complete_reader.hpp"
+#include "platform/complete_reader.hpp"
 #include "platform/config.hpp"
 
 namespace plumb {

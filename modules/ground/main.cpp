@@ -6,7 +6,7 @@
 #include "modules/ground/ground_model_source.hpp"
 #include "modules/ground/ground_node.hpp"
 #include "modules/ground/mount_check.hpp"
-#include "modules/ground/mount_state.hpp"
+#include "modules/ground/mount_source.hpp"
 #include "platform/clock.hpp"
 #include "platform/log.hpp"
 #include "platform/numbers.hpp"

@@ -1,9 +1,9 @@
-#include "modules/ground/mount_state.hpp"
+#include "modules/ground/mount_source.hpp"
 
 #include <cstdio>
 #include <fstream>
 
-#include "modules/ground/complete_reader.hpp"
+#include "platform/complete_reader.hpp"
 #include "platform/config.hpp"
 #include "platform/input_error.hpp"
 

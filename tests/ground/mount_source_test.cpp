@@ -1,4 +1,4 @@
-#include "modules/ground/mount_state.hpp"
+#include "modules/ground/mount_source.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::string config_error_of(const std::string& path) {
 
 const MountReference kReference{{-0.012, 0.004, 0.03}, {0.001, 0.002, 0.0005}, 10};
 
-TEST(MountState, ComesBackAsItWas) {
+TEST(MountSource, ComesBackAsItWas) {
   const test::TempFolder folder;
   const std::string path = (folder.path() / "mount.toml").string();
   save_mount_reference(path, kReference);
@@ -35,7 +35,7 @@ TEST(MountState, ComesBackAsItWas) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
-TEST(MountState, RefusesADamagedFileAndNamesTheKey) {
+TEST(MountSource, RefusesADamagedFileAndNamesTheKey) {
   const test::TempFolder folder;
   const std::string path = (folder.path() / "mount.toml").string();
   save_mount_reference(path, kReference);
@@ -55,7 +55,7 @@ TEST(MountState, RefusesADamagedFileAndNamesTheKey) {
   test::expect_contains(config_error_of(path), "pitch_std_rad");
 }
 
-TEST(MountState, SaysWhenItCannotBeWritten) {
+TEST(MountSource, SaysWhenItCannotBeWritten) {
   test::expect_contains(
       test::input_error_of([&] { save_mount_reference("/no/such/folder/mount.toml", kReference); }),
       "cannot write");
