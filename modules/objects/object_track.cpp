@@ -199,6 +199,7 @@ bool ObjectTrack::start(const TrackView& view, const Detection& detection, const
     found = true;
   }
   seed_standing();
+  mix();
   return found;
 }
 
@@ -230,15 +231,28 @@ void ObjectTrack::predict(const TrackView& view, const GroundMotion& motion) {
     moving_.P.block<2, 2>(kVelocityX, kVelocityX).diagonal().array() +=
         square(kUnknownMotionSpeedStd);
     seed_standing();
+  } else {
+    carry(view, axes, dt_s, heading_rad_, &standing_);
+    pin(&standing_);
+    standing_.P.topLeftCorner<2, 2>().diagonal().array() +=
+        square(kWayErrorRatio) * motion.t_m.squaredNorm();
+    standing_log_odds_ *= std::exp(-dt_s / kOddsTime_s);
   }
   over_ground_ = motion.known;
-  if (!over_ground_) return;
+  mix();
+}
 
-  carry(view, axes, dt_s, heading_rad_, &standing_);
-  pin(&standing_);
-  standing_.P.topLeftCorner<2, 2>().diagonal().array() +=
-      square(kWayErrorRatio) * motion.t_m.squaredNorm();
-  standing_log_odds_ *= std::exp(-dt_s / kOddsTime_s);
+void ObjectTrack::mix() {
+  estimate_ = moving_;
+  if (!over_ground_) return;
+  const double share = 1.0 / (1.0 + std::exp(-standing_log_odds_));
+  StateVector apart = standing_.x - moving_.x;
+  // Standing tells no front from a rear.
+  apart(kYaw) = 0.5 * wrapped(2.0 * apart(kYaw));
+  estimate_.x += share * apart;
+  estimate_.x(kYaw) = wrapped(estimate_.x(kYaw));
+  estimate_.P = (1.0 - share) * moving_.P + share * standing_.P +
+                share * (1.0 - share) * (apart * apart.transpose());
 }
 
 bool ObjectTrack::weigh(const BoxFitResult& moving, const BoxFitResult& standing) {
@@ -280,6 +294,8 @@ bool ObjectTrack::correct(const TrackView& view, const Detection& detection,
     return start(view, detection, box);
   }
   num_misfits_ = 0;
+  align_with_motion();
+  mix();
   return true;
 }
 

@@ -1,9 +1,9 @@
 /// One object followed over frames: two Kalman filters over its 3D box on the road, one for an
-/// object that moves and one for an object that stands, and the odds between them. What stands is
-/// seen from ever new places, so its distance follows from the camera's way alone.
+/// object that moves and one for an object that stands, weighed by how well each foretells the next
+/// box. What stands is seen from ever new places, so its distance follows from the camera's way.
 ///
 /// Frames  ground of the newest image: x forward, y left, z up, on the road under the camera.
-/// Memory  two states of 9 and their covariances.
+/// Memory  three states of 9 and their covariances.
 #pragma once
 
 #include <cstdint>
@@ -44,27 +44,25 @@ class ObjectTrack {
   /// Takes the box of this track in this image. False when it fits badly: the track keeps its
   /// prediction, or begins anew when boxes went on not to fit.
   bool correct(const TrackView& view, const Detection& detection, const MeasuredBox& box);
-  /// Heading from the velocity over ground, where there is one.
-  void align_with_motion();
-
-  /// Of the likelier filter.
-  [[nodiscard]] const StateEstimate& estimate() const { return stands() ? standing_ : moving_; }
-  [[nodiscard]] bool stands() const { return over_ground_ && standing_log_odds_ > kStandsLogOdds; }
+  /// Mean and covariance of both filters together.
+  [[nodiscard]] const StateEstimate& estimate() const { return estimate_; }
   [[nodiscard]] ObjectClass object_class() const { return object_class_; }
   /// Velocities are over ground; else relative to the camera.
   [[nodiscard]] bool over_ground() const { return over_ground_; }
 
  private:
-  static constexpr double kStandsLogOdds = 3.0;
-
   [[nodiscard]] StateEstimate prior(const TrackView& view, const Detection& detection,
                                     const MeasuredBox& box, double yaw_rad) const;
 
   /// Odds and survival of the two filters after a box was fitted to both. False: it fits neither.
   bool weigh(const BoxFitResult& moving, const BoxFitResult& standing);
+  /// Heading of the moving filter from its velocity over ground, where there is one.
+  void align_with_motion();
   /// The object may stand: what the moving filter would hold if it did.
   void seed_standing();
+  void mix();
 
+  StateEstimate estimate_;
   StateEstimate moving_;
   StateEstimate standing_;
   double standing_log_odds_ = 0.0;

@@ -171,7 +171,6 @@ void ObjectTracker::take(const TrackView& view, const ObjectsInput& input, std::
     slot.reason = fits ? ObjectReason::kNone : ObjectReason::kMisfit;
   }
   if (slot.reason != ObjectReason::kNone) return;
-  slot.track.align_with_motion();
   const HiddenEdges hidden = hidden_edges(frame, index);
   if (!input.plane_measured) slot.reason = ObjectReason::kCalibratedPlane;
   if (std::max(hidden.lower_ratio, hidden.upper_ratio) > kPartlyHidden) {

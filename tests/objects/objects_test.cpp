@@ -146,7 +146,7 @@ TEST(Objects, TheCamerasWayShowsTheDistanceOfWhatStands) {
     error[knows_motion ? 1 : 0] = off.norm();
     EXPECT_LT(off.dot(last->position_cov_m2.inverse() * off), 12.0);
     if (knows_motion) {
-      EXPECT_EQ(last->velocity_m_s.norm(), 0.0);
+      EXPECT_LT(last->velocity_m_s.norm(), 0.05);
     }
   }
   EXPECT_LT(error[1], 0.6);
@@ -160,7 +160,11 @@ TEST(Objects, SlowTrafficIsNotTakenForParked) {
     for (int k = 0; k < 24; ++k) {
       const ObjectOutput& seen = drive.step(true, -100, 0.5).objects[0];
       if (k <= 15) continue;
-      EXPECT_NEAR(seen.velocity_m_s.x(), speed_m_s, 1.6) << speed_m_s << " at " << k;
+      const double std_m_s = std::sqrt(seen.velocity_cov_m2_s2(0, 0));
+      EXPECT_NEAR(seen.velocity_m_s.x(), speed_m_s, 4.0 * std_m_s) << speed_m_s << " at " << k;
+      if (k == 23) {
+        EXPECT_NEAR(seen.velocity_m_s.x(), speed_m_s, 1.2);
+      }
     }
   }
 }
