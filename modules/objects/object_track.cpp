@@ -33,8 +33,8 @@ constexpr std::array<Heading, 4> kHeadings{
 constexpr double kNearestFoot_m = 3.0;
 constexpr double kStandingSpeedStd = 0.1;  ///< [m/s]
 constexpr double kWayErrorRatio = 0.02;    ///< of the camera's way over a frame
-constexpr double kOddsTime_s = 10.0;   ///< over which evidence fades: boxes err alike for a while
-constexpr double kMostEvidence = 1.0;  ///< of one box, in log odds
+constexpr double kOddsTime_s = 10.0;  ///< over which evidence fades: boxes err alike for a while
+constexpr double kMostEvidence_s = 10.0;  ///< in log odds, per second since the last box
 constexpr double kReseedLogOdds = -6.0;
 constexpr double kReseedSigmas2 = 6.0;
 constexpr double kReseedSpeedStd = 3.0;  ///< [m/s]
@@ -198,6 +198,7 @@ bool ObjectTrack::start(const TrackView& view, const Detection& detection, const
     heading_rad_ = heading.yaw_rad;
     found = true;
   }
+  fresh_ = true;
   seed_standing();
   mix();
   return found;
@@ -206,6 +207,7 @@ bool ObjectTrack::start(const TrackView& view, const Detection& detection, const
 void ObjectTrack::seed_standing() {
   standing_ = moving_;
   standing_log_odds_ = 0.0;
+  unweighed_s_ = 0.0;
   Eigen::Matrix2d S = moving_.P.block<2, 2>(kVelocityX, kVelocityX);
   S.diagonal().array() += square(kStandingSpeedStd);
   const Eigen::Matrix<double, kStateSize, 2> K = moving_.P.middleCols<2>(kVelocityX) * S.inverse();
@@ -227,7 +229,7 @@ void ObjectTrack::predict(const TrackView& view, const GroundMotion& motion) {
   accelerate(
       square(motion.known ? view.objects.accel_std_m_s2 : view.objects.relative_accel_std_m_s2),
       dt_s, &moving_);
-  if (motion.known != over_ground_) {
+  if (motion.known != over_ground_ && !fresh_) {
     moving_.P.block<2, 2>(kVelocityX, kVelocityX).diagonal().array() +=
         square(kUnknownMotionSpeedStd);
     seed_standing();
@@ -239,6 +241,8 @@ void ObjectTrack::predict(const TrackView& view, const GroundMotion& motion) {
     standing_log_odds_ *= std::exp(-dt_s / kOddsTime_s);
   }
   over_ground_ = motion.known;
+  fresh_ = false;
+  unweighed_s_ += dt_s;
   mix();
 }
 
@@ -258,13 +262,15 @@ void ObjectTrack::mix() {
 bool ObjectTrack::weigh(const BoxFitResult& moving, const BoxFitResult& standing) {
   const bool moves = moving.ok && moving.chi2 <= kMisfitChi2;
   const bool stands = over_ground_ && standing.ok && standing.chi2 <= kMisfitChi2;
+  const double most_evidence = kMostEvidence_s * unweighed_s_;
+  unweighed_s_ = 0.0;
   if (moves) moving_ = moving.estimate;
   if (stands) standing_ = standing.estimate;
   if (moves && stands) {
     const double evidence = 0.5 * (moving.chi2 + moving.log_det - standing.chi2 - standing.log_det);
-    standing_log_odds_ += std::clamp(evidence, -kMostEvidence, kMostEvidence);
+    standing_log_odds_ += std::clamp(evidence, -most_evidence, most_evidence);
   } else if (stands) {
-    standing_log_odds_ += kMostEvidence;
+    standing_log_odds_ += most_evidence;
     moving_ = standing_;
     moving_.P.block<2, 2>(kVelocityX, kVelocityX).diagonal().array() += square(kReseedSpeedStd);
   } else if (moves) {

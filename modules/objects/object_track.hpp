@@ -66,8 +66,10 @@ class ObjectTrack {
   StateEstimate moving_;
   StateEstimate standing_;
   double standing_log_odds_ = 0.0;
+  double unweighed_s_ = 0.0;  ///< since the odds last heard of a box
   ObjectClass object_class_ = ObjectClass::kUnknown;
   bool over_ground_ = false;
+  bool fresh_ = true;  ///< since the start: velocities are those of the prior
   double heading_rad_ = 0.0;  ///< the heading that the start preferred
   bool was_whole_ = false;    ///< since the start
   int num_misfits_ = 0;       ///< in a row
