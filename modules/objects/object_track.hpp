@@ -69,7 +69,7 @@ class ObjectTrack {
   double unweighed_s_ = 0.0;  ///< since the odds last heard of a box
   ObjectClass object_class_ = ObjectClass::kUnknown;
   bool over_ground_ = false;
-  bool fresh_ = true;  ///< since the start: velocities are those of the prior
+  bool fresh_ = true;         ///< since the start: velocities are those of the prior
   double heading_rad_ = 0.0;  ///< the heading that the start preferred
   bool was_whole_ = false;    ///< since the start
   int num_misfits_ = 0;       ///< in a row
