@@ -33,8 +33,8 @@ constexpr std::array<Heading, 4> kHeadings{
 constexpr double kNearestFoot_m = 3.0;
 constexpr double kStandingSpeedStd = 0.1;  ///< [m/s]
 constexpr double kWayErrorRatio = 0.02;    ///< of the camera's way over a frame
-constexpr double kOddsTime_s = 10.0;  ///< over which evidence fades: boxes err alike for a while
-constexpr double kMostEvidence_s = 10.0;  ///< in log odds, per second since the last box
+constexpr double kOddsTime_s = 10.0;    ///< over which evidence fades: boxes err alike for a while
+constexpr double kEvidenceRate = 10.0;  ///< [1/s] the most that boxes can say, in log odds
 constexpr double kReseedLogOdds = -6.0;
 constexpr double kReseedSigmas2 = 6.0;
 constexpr double kReseedSpeedStd = 3.0;  ///< [m/s]
@@ -198,10 +198,11 @@ bool ObjectTrack::start(const TrackView& view, const Detection& detection, const
     heading_rad_ = heading.yaw_rad;
     found = true;
   }
+  if (!found) return false;
   fresh_ = true;
   seed_standing();
   mix();
-  return found;
+  return true;
 }
 
 void ObjectTrack::seed_standing() {
@@ -262,7 +263,7 @@ void ObjectTrack::mix() {
 bool ObjectTrack::weigh(const BoxFitResult& moving, const BoxFitResult& standing) {
   const bool moves = moving.ok && moving.chi2 <= kMisfitChi2;
   const bool stands = over_ground_ && standing.ok && standing.chi2 <= kMisfitChi2;
-  const double most_evidence = kMostEvidence_s * unweighed_s_;
+  const double most_evidence = kEvidenceRate * unweighed_s_;
   unweighed_s_ = 0.0;
   if (moves) moving_ = moving.estimate;
   if (stands) standing_ = standing.estimate;

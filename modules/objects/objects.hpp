@@ -8,7 +8,7 @@
 /// middle of
 ///         the footprint, velocities over ground, both in the axes of the newest image.
 /// Units   SI.
-/// Memory  kMaxObjects tracks in place, 45 kB; nothing grows. The nearest are kept when there are
+/// Memory  kMaxObjects tracks in place, 95 kB; nothing grows. The nearest are kept when there are
 /// more.
 #pragma once
 

@@ -50,6 +50,12 @@ class Drive {
       if (ids_[i] == skip || car(kX) < 4.0) continue;
       EXPECT_TRUE(frame.detections.push_back(test::detect(car, kerb(), ids_[i])));
     }
+    for (Detection& d : frame.detections) {
+      if (!in_the_sky_) continue;
+      d.box.bottom_px = 60.0;
+      d.box.top_px = d.box.bottom_px - 0.001;
+      d.box.right_px = d.box.left_px + 0.001;
+    }
     if (noise_px > 0.0) test::shake(&frame, noise_px, &random_);
     ++k_;
     ObjectsInput input;
@@ -65,6 +71,8 @@ class Drive {
   void drive_off(std::size_t i, double speed_m_s) { cars_[i](kVelocityX) = speed_m_s; }
   /// How high above the camera's road the cars stand.
   void stand_on(double height_m) { kerb_m_ = height_m; }
+  /// Boxes without size above the horizon: no object on the road looks like that.
+  void hang_in_the_sky(bool hangs) { in_the_sky_ = hangs; }
 
  private:
   [[nodiscard]] RoadPlane kerb() const {
@@ -75,6 +83,7 @@ class Drive {
 
   double speed_m_s_, yaw_rate_rad_s_;
   double kerb_m_ = 0.0;
+  bool in_the_sky_ = false;
   RoadPlane plane_ = test::road(0.005);
   std::vector<StateVector> cars_;
   std::vector<std::int32_t> ids_;
@@ -151,6 +160,20 @@ TEST(Objects, TheCamerasWayShowsTheDistanceOfWhatStands) {
   }
   EXPECT_LT(error[1], 0.6);
   EXPECT_GT(error[0], 2.0 * error[1]);
+}
+
+TEST(Objects, BoxesThatFitNoObjectLeaveATrackAsItWas) {
+  Drive drive(10.0);
+  drive.add(car_at(45.0, -4.0, 0.0), 1);
+  for (int k = 0; k < 20; ++k) drive.step();
+  drive.hang_in_the_sky(true);
+  for (int k = 0; k < 6; ++k) {
+    const ObjectOutput& seen = drive.step().objects[0];
+    ASSERT_EQ(seen.status, ObjectStatus::kPredicted) << k;
+    EXPECT_EQ(seen.reason, ObjectReason::kMisfit);
+    EXPECT_LT((seen.position_m - drive.car(0).head<2>()).norm(), 0.5) << k;
+    EXPECT_LT(seen.velocity_cov_m2_s2(0, 0), 0.25) << k << ": it still stands";
+  }
 }
 
 TEST(Objects, SlowTrafficIsNotTakenForParked) {
