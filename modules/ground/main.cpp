@@ -1,79 +1,14 @@
 /// CAMERA, CAMERA_CALIBRATION, VO_MOTION -> ground plane, scale, metric motion -> GROUND_PLANE, EGO_MOTION, MOUNT
-#include <filesystem>
 #include <optional>
 
 #include "modules/config.hpp"
 #include "modules/ground/ground_model_source.hpp"
 #include "modules/ground/ground_node.hpp"
-#include "modules/ground/mount_check.hpp"
-#include "modules/ground/mount_source.hpp"
+#include "modules/ground/mount_node.hpp"
 #include "platform/clock.hpp"
-#include "platform/log.hpp"
-#include "platform/numbers.hpp"
 #include "platform/process.hpp"
 
 namespace {
-
-constexpr std::int64_t kMountPeriod_us = 1'000'000;
-
-/// The mount check with its channel, its file and its word in the process's health.
-class MountWatch {
- public:
-  MountWatch(plumb::Process& process, const plumb::MountConfig& config)
-      : process_(process),
-        state_file_(config.state_file),
-        check_(config),
-        mount_(process.bus(), plumb::kMount) {
-    if (state_file_.empty() || !std::filesystem::exists(state_file_)) return;
-    try {
-      check_.restore(plumb::load_mount_reference(state_file_));
-    } catch (const plumb::ConfigError& error) {
-      // The vehicle drives on without it.
-      plumb::log_line("%s; a new reference is made", error.what());
-    }
-  }
-
-  void update(const plumb::GroundOutput& ground) {
-    const bool had_reference = check_.report().reference.has_value();
-    const plumb::MountStatus before = check_.report().status;
-    const plumb::MountReport& report = check_.update(ground);
-    if (!had_reference && report.reference) save(*report.reference);
-    if (report.status != before) tell(report);
-    if (ground.capture_us - published_us_ < kMountPeriod_us && report.status == before) return;
-    published_us_ = ground.capture_us;
-    plumb::to_wire(report, ground.capture_us, &message_);
-    mount_.publish(message_);
-  }
-
- private:
-  void save(const plumb::MountReference& reference) const {
-    if (state_file_.empty()) return;
-    try {
-      plumb::save_mount_reference(state_file_, reference);
-    } catch (const plumb::InputError& error) {
-      plumb::log_line("%s", error.what());
-    }
-  }
-
-  void tell(const plumb::MountReport& report) {
-    if (report.status != plumb::MountStatus::kMoved) return process_.health().clear_condition();
-    const Eigen::Vector3d off_rad = report.recent_rad - report.reference->mean_rad;
-    char text[128];
-    std::snprintf(text, sizeof text,
-                  "the camera has moved on its mount: pitch %+.1f, roll %+.1f, yaw %+.1f deg",
-                  plumb::degrees(off_rad.x()), plumb::degrees(off_rad.y()),
-                  plumb::degrees(off_rad.z()));
-    process_.health().set_condition(plumb::HealthState::kDegraded, text);
-    plumb::log_line("%s", text);
-  }
-
-  plumb::Process& process_;
-  std::string state_file_;
-  plumb::MountCheck check_;
-  plumb::Publisher<plumb::mount_t> mount_;
-  plumb::mount_t message_{};
-  std::int64_t published_us_ = 0;
-};
 
 class GroundProcess {
  public:
@@ -85,7 +20,8 @@ class GroundProcess {
             plumb::load_ground_model(config.ground.model_file)),
         plane_(process.bus(), plumb::kGroundPlane),
         ego_(process.bus(), plumb::kEgoMotion),
-        mount_(process, config.mount),
+        mount_(process.bus(), plumb::kMount),
+        mount_node_(config.mount),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
         camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
@@ -122,15 +58,25 @@ class GroundProcess {
   void publish(const plumb::ground_plane_t& plane, const plumb::ego_motion_t& ego) {
     plane_.publish(plane);
     ego_.publish(ego);
-    if (node_.output() != nullptr) mount_.update(*node_.output());
+    if (node_.output() != nullptr) watch_mount(*node_.output());
     process_.timer().end();
+  }
+
+  void watch_mount(const plumb::GroundOutput& output) {
+    const bool alarmed = mount_node_.alarm() != nullptr;
+    if (const plumb::mount_t* message = mount_node_.update(output)) mount_.publish(*message);
+    const char* alarm = mount_node_.alarm();
+    if ((alarm != nullptr) == alarmed) return;
+    if (alarmed) return process_.health().clear_condition();
+    process_.health().set_condition(plumb::HealthState::kDegraded, alarm);
   }
 
   plumb::Process& process_;
   plumb::GroundNode node_;
   plumb::Publisher<plumb::ground_plane_t> plane_;
   plumb::Publisher<plumb::ego_motion_t> ego_;
-  MountWatch mount_;
+  plumb::Publisher<plumb::mount_t> mount_;
+  plumb::MountNode mount_node_;
   plumb::Subscriber<plumb::camera_calibration_t> calibration_;
   plumb::RawSubscriber camera_;
   plumb::Subscriber<plumb::vo_motion_t> motion_;

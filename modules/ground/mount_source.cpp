@@ -50,8 +50,7 @@ void save_mount_reference(const std::string& path, const MountReference& referen
   const std::string part = path + ".part";
   std::ofstream file(part);
   file << "# How the camera sat on its vehicle. Written by plumb-ground; delete it after work on "
-          "the "
-          "camera.\n"
+          "it.\n"
        << writer.sections();
   file.close();
   if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
