@@ -6,6 +6,7 @@
 #include "plumb/detection_t.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
+#include "plumb/mount_t.hpp"
 #include "plumb/object_t.hpp"
 #include "plumb/vo_motion_t.hpp"
 
@@ -36,6 +37,9 @@ constexpr std::array kEgoStatus = {"ok",         "initializing", "scale_held",
                                    "standstill", "coasting",     "lost"};
 static_assert(kEgoStatus.size() == ego_motion_t::STATUS_LOST + 1);
 
+constexpr std::array kMountStatus = {"collecting", "unsteady", "steady", "moved"};
+static_assert(kMountStatus.size() == mount_t::STATUS_MOVED + 1);
+
 constexpr std::array kObjectClass = {"unknown", "car",        "van",    "truck",
                                      "bus",     "pedestrian", "cyclist"};
 static_assert(kObjectClass.size() == detection_t::CLASS_CYCLIST + 1);
@@ -62,6 +66,7 @@ const char* plane_status_name(int status) { return name_in(kPlaneStatus, status)
 const char* plane_reason_name(int reason) { return name_in(kPlaneReason, reason); }
 const char* cue_status_name(int status) { return name_in(kCueStatus, status); }
 const char* ego_status_name(int status) { return name_in(kEgoStatus, status); }
+const char* mount_status_name(int status) { return name_in(kMountStatus, status); }
 const char* object_class_name(int object_class) { return name_in(kObjectClass, object_class); }
 const char* object_status_name(int status) { return name_in(kObjectStatus, status); }
 const char* object_reason_name(int reason) { return name_in(kObjectReason, reason); }

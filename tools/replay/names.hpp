@@ -9,6 +9,7 @@ namespace plumb {
 [[nodiscard]] const char* plane_reason_name(int reason);
 [[nodiscard]] const char* cue_status_name(int status);
 [[nodiscard]] const char* ego_status_name(int status);
+[[nodiscard]] const char* mount_status_name(int status);
 [[nodiscard]] const char* object_class_name(int object_class);
 [[nodiscard]] const char* object_status_name(int status);
 [[nodiscard]] const char* object_reason_name(int reason);

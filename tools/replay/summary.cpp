@@ -1,7 +1,5 @@
 #include "tools/replay/summary.hpp"
 
-#include <array>
-
 #include "platform/numbers.hpp"
 #include "platform/text.hpp"
 #include "tools/replay/names.hpp"
@@ -41,12 +39,11 @@ std::string StatusCount::text() const {
 }
 
 std::string mount_text(const MountReport& report) {
-  constexpr std::array<const char*, 4> kStatus{"collecting", "unsteady", "steady", "moved"};
   const auto angles = [](const Eigen::Vector3d& rad) {
     return format("pitch %+.2f, roll %+.2f, yaw %+.2f deg", degrees(rad.x()), degrees(rad.y()),
                   degrees(rad.z()));
   };
-  std::string text = format("mount   %s", kStatus[static_cast<std::size_t>(report.status)]);
+  std::string text = format("mount   %s", mount_status_name(static_cast<int>(report.status)));
   if (report.reference) text += ", reference " + angles(report.reference->mean_rad);
   if (!report.reference) text += format(", %.0f %% of a reference", 100.0 * report.progress);
   if (report.recent_rad.allFinite()) text += "; now " + angles(report.recent_rad);
