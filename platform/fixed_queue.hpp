@@ -25,7 +25,6 @@ class FixedQueue {
   [[nodiscard]] const T& front() const { return items_[first_]; }
   [[nodiscard]] T& back() { return items_[(first_ + size_ - 1) % N]; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
   std::array<T, N> items_{};

@@ -1,7 +1,8 @@
 #include "modules/detect/suppress.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "platform/numbers.hpp"
 
 namespace plumb {
 
@@ -24,7 +25,7 @@ void suppress(std::vector<RawBox>* raw, double overlap, DetectionFrame* frame) {
       detection.object_class = one.object_class;
       detection.score = one.score;
       detection.box = one.box;
-      detection.truncated_ratio = std::numeric_limits<double>::quiet_NaN();
+      detection.truncated_ratio = kNan;
       if (!frame->detections.push_back(detection)) continue;
       owner = &frame->detections[frame->detections.size() - 1];
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "modules/detections/box_screen.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -42,8 +43,7 @@ double time_to_collision(const StateEstimate& estimate, const GroundMotion& moti
   if (over_ground && motion.dt_s > 0.0) closing_m_s -= motion.t_m / motion.dt_s;
   const double range_m = range_of(estimate);
   const double rate_m_s = estimate.x.head<2>().dot(closing_m_s) / range_m;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  return rate_m_s < -kLeastClosing_m_s ? range_m / -rate_m_s : nan;
+  return rate_m_s < -kLeastClosing_m_s ? range_m / -rate_m_s : kNan;
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ void ObjectTracker::report(const TrackView& view, const ObjectsInput& input) {
     object.object_class = slot.track.object_class();
     object.reason = slot.reason;
     object.age_s = 1e-6 * static_cast<double>(input.frame->capture_us - slot.begun_us);
-    object.time_to_collision_s = std::numeric_limits<double>::quiet_NaN();
+    object.time_to_collision_s = kNan;
     if (slot.localised) {
       const StateEstimate& estimate = slot.track.estimate();
       const StateMatrix& P = estimate.P;

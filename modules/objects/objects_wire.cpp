@@ -1,9 +1,9 @@
 #include "modules/objects/objects_wire.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "modules/geometry/pose_wire.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -25,7 +25,6 @@ static_assert(same(ObjectReason::kNoFit, object_t::REASON_NO_FIT));
 static_assert(kMaxObjects == objects_t::MAX_OBJECTS);
 
 void write_object(const ObjectOutput& object, object_t* out) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   out->track_id = object.track_id;
   out->class_id = static_cast<std::int8_t>(object.object_class);
   out->status = static_cast<std::int8_t>(object.status);
@@ -35,9 +34,10 @@ void write_object(const ObjectOutput& object, object_t* out) {
   out->position_ground_m[2] = 0.0;
   to_wire(object.position_cov_m2, out->position_cov_m2);
   for (int i = 0; i < 2; ++i) {
-    out->velocity_ground_m_s[i] = object.velocity_holds ? object.velocity_m_s(i) : nan;
+    out->velocity_ground_m_s[i] = object.velocity_holds ? object.velocity_m_s(i) : kNan;
     for (int j = 0; j < 2; ++j) {
-      out->velocity_cov_m2_s2[i][j] = object.velocity_holds ? object.velocity_cov_m2_s2(i, j) : nan;
+      out->velocity_cov_m2_s2[i][j] =
+          object.velocity_holds ? object.velocity_cov_m2_s2(i, j) : kNan;
     }
   }
   out->yaw_rad = object.yaw_rad;

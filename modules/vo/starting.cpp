@@ -1,10 +1,10 @@
 /// Pipeline's steps from a reference image to the first triangulated window, at the start and after a loss.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "modules/vo/inverse_depth.hpp"
 #include "modules/vo/pipeline.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb::vo {
 namespace {
@@ -156,8 +156,8 @@ bool Pipeline::try_start(const VoInput& /*input*/, double least_flow_px) {
   if (restarting_) {
     out_.reason = VoReason::kRestarted;
     ++out_.scale_epoch;
-    out_.scale_carry_std = speed_known ? carried_std(motion_.seen_speed(), unseen_s_ + dt_s_)
-                                       : std::numeric_limits<double>::quiet_NaN();
+    out_.scale_carry_std =
+        speed_known ? carried_std(motion_.seen_speed(), unseen_s_ + dt_s_) : kNan;
   }
   const Se3 T_now_world = window_[window_.newest()].T_cam_world;
   if (window_.num_history() > 1) {

@@ -14,6 +14,7 @@
 #include "platform/numbers.hpp"
 
 namespace plumb::test {
+
 inline const CameraModel kSceneCamera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0, 0.0, 1.65};
 
 struct SceneObject {

@@ -11,12 +11,11 @@
 #include "modules/detections/detections_wire.hpp"
 #include "modules/objects/objects_node.hpp"
 #include "platform/bounded_decode.hpp"
+#include "platform/numbers.hpp"
 #include "tests/objects/cuboid_scene.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 DetectionFrame two_cars(std::int64_t seq) {

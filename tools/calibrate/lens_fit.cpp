@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <limits>
 #include <map>
 #include <nlopt.hpp>
 
@@ -17,6 +16,7 @@
 
 namespace plumb {
 namespace {
+
 constexpr double kLostResidual_px = 1.0;
 constexpr std::size_t kBlockImages = 10;
 constexpr double kFewestBlocks = 5.0;
@@ -274,8 +274,7 @@ Least refine(Objective* objective, const std::vector<const CameraParameter*>& pa
 
 /// Deviation over what is needed; a parameter without a least is worst.
 double excess(const CameraParameter& parameter, double std_steps) {
-  return std::isnan(std_steps) ? std::numeric_limits<double>::infinity()
-                               : std_steps * parameter.step / parameter.needed_std;
+  return std::isnan(std_steps) ? kInf : std_steps * parameter.step / parameter.needed_std;
 }
 
 }  // namespace

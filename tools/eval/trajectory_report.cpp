@@ -1,9 +1,9 @@
 #include "tools/eval/trajectory_report.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "platform/input_error.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -76,11 +76,10 @@ TrajectoryReport pool(std::vector<SequenceReport> sequences, const EvalOptions& 
     sum.r_deg_m += sequence.summary.all.r_deg_m;
   }
   const double n = sum.num_segments;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   report.pooled = summarize(all, options.metric.lengths_m);
   report.mean_of_sequences.num_segments = sum.num_segments;
-  report.mean_of_sequences.t_percent = n > 0.0 ? sum.t_percent / n : nan;
-  report.mean_of_sequences.r_deg_m = n > 0.0 ? sum.r_deg_m / n : nan;
+  report.mean_of_sequences.t_percent = n > 0.0 ? sum.t_percent / n : kNan;
+  report.mean_of_sequences.r_deg_m = n > 0.0 ? sum.r_deg_m / n : kNan;
   report.sequences = std::move(sequences);
   return report;
 }

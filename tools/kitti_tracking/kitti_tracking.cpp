@@ -1,7 +1,6 @@
 #include "tools/kitti_tracking/kitti_tracking.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "platform/input_error.hpp"
 #include "platform/number_file.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -40,9 +40,7 @@ double number(const std::vector<std::string_view>& words, std::size_t column,
 }
 
 /// A label says 0, 1 or 2 for how far it is cut; a tracker -1 for not known.
-double truncated_ratio(double level) {
-  return level < 0.0 ? std::numeric_limits<double>::quiet_NaN() : 0.5 * level;
-}
+double truncated_ratio(double level) { return level < 0.0 ? kNan : 0.5 * level; }
 
 Occlusion occlusion_of(double level) {
   return level >= 0.0 && level <= 2.0 ? static_cast<Occlusion>(static_cast<int>(level))

@@ -5,8 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
+
+#include "platform/numbers.hpp"
 
 namespace plumb {
 
@@ -42,8 +43,6 @@ class CsvRow {
 };
 
 /// Standard deviation; NaN, an empty cell, when the variance does not hold.
-inline double deviation(double variance) {
-  return variance >= 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::quiet_NaN();
-}
+inline double deviation(double variance) { return variance >= 0.0 ? std::sqrt(variance) : kNan; }
 
 }  // namespace plumb

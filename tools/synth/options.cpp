@@ -10,6 +10,7 @@
 
 namespace plumb::synth {
 namespace {
+
 constexpr double kUnset = 1e8;
 
 void parse_size(const std::string& text, CameraModel& camera) {

@@ -7,6 +7,7 @@
 
 #include "modules/ground/lanes.hpp"
 #include "modules/ground/plane_landing.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -83,7 +84,7 @@ double RoadRegion::sad(const ImageView& old_image, const Se3& T_old_cam,
   }
   const double num_pixels = sum_lanes(count);
   if (num_pixels < kLeastOverlap * static_cast<double>(size_)) {
-    return std::numeric_limits<double>::quiet_NaN();
+    return kNan;
   }
   return sum_lanes(sum) / num_pixels;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "platform/can_trace.hpp"
 #include "platform/channels.hpp"
 #include "platform/log_file.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -19,7 +19,6 @@ namespace {
 constexpr int kFirstSeq = 100;  // the 8-bit frame counter wraps on the way
 constexpr int kNumFrames = 200;
 constexpr std::int64_t kFrameUs = 100'000;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A sum of sines around `mean`, so that successive frames differ in every signal.
 double wave(int frame, double mean, double amplitude, double period) {
