@@ -32,6 +32,9 @@ constexpr double kIndependentStepRatio = 0.6;
 // one sight with one error. VO's own scale is the better witness there. Per unit of the path's curvature.
 constexpr double kTurnRepetition = 40.0;
 
+// Boxes err alike from image to image, as the cars' heights and the road under them do.
+constexpr double kObjectsRepetition = 10.0;
+
 /// How many images share one independent view of the road.
 double repetition(const CueContext& context) {
   return std::max(1.0, kIndependentStepRatio / std::max(1e-6, context.step_ratio)) *
@@ -94,6 +97,8 @@ double FloorCovariance::dense_repetition(const CueContext& context) const {
 double FloorCovariance::points_repetition(const CueContext& context) const {
   return repetition(context);
 }
+
+double FloorCovariance::objects_repetition() const { return kObjectsRepetition; }
 
 double FloorCovariance::dense_quality(const DenseObservation& dense) const {
   return dense.ok ? std::clamp(dense.ncc, 0.0, 1.0) : 0.0;

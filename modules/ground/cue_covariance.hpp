@@ -34,6 +34,8 @@ class CueCovariance {
   /// no tilt lags behind and takes a crest for a change of scale.
   [[nodiscard]] virtual double dense_repetition(const CueContext& context) const = 0;
   [[nodiscard]] virtual double points_repetition(const CueContext& context) const = 0;
+  /// The same for the pitch of detected objects: their heights and the road under them change slowly.
+  [[nodiscard]] virtual double objects_repetition() const = 0;
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
   [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
   [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
@@ -52,6 +54,7 @@ class FloorCovariance final : public CueCovariance {
   [[nodiscard]] double travel(const Travel& travel, const CueContext& context) const override;
   [[nodiscard]] double dense_repetition(const CueContext& context) const override;
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
+  [[nodiscard]] double objects_repetition() const override;
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
 };

@@ -75,6 +75,7 @@ struct GroundEstimator::Impl {
   void measure_points(const VoOutput& vo);
   bool search_start(const VoOutput& vo);
   void fuse();
+  void fuse_objects(const GroundInput& input);
   void start_filter();
   void write_cues();
   void write_plane(const VoOutput& vo, bool has_image);
@@ -101,6 +102,9 @@ struct GroundEstimator::Impl {
     Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< expected
     double height = 0.0;                                    ///< expected [vo]
     double var_before = 0.0;                                ///< of ln h, before the cues
+    bool predicted = false;  ///< the filter has gone on to this image
+    ObjectNormal objects;
+    CueStatus objects_status = CueStatus::kAbsent;
 
     [[nodiscard]] bool height_measured() const {
       return dense_status == CueStatus::kUsed || points_status == CueStatus::kUsed;
@@ -133,6 +137,7 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   m.follow_scale_epoch(vo);
   m.measure_cues(vo, probe);
   m.fuse();
+  m.fuse_objects(input);
   m.frame.filter_started = m.filter.started();
   m.frame.state = m.filter.state();
   m.frame.cov = m.filter.cov();
@@ -181,6 +186,7 @@ bool GroundEstimator::Impl::prepare_plane(const VoOutput& vo) {
   if (filter.started()) {
     const double step = vo.status == VoStatus::kRotationOnly ? 0.0 : frame.travel.step;
     filter.predict(vo.T_prev_cam.R, step / filter.height());
+    frame.predicted = true;
   }
   frame.var_before = filter.started() ? filter.cov()(2, 2) : 0.0;
   if (vo.status != VoStatus::kOk || !frame.travel.valid) return false;
@@ -301,6 +307,18 @@ void GroundEstimator::Impl::fuse() {
   filter.end_frame(frame.height_measured(), frame.height_refused());
 }
 
+/// The last of the cues, so that the gate holds it against this frame's others. Not at rest: the same boxes again and
+/// again would feign certainty.
+void GroundEstimator::Impl::fuse_objects(const GroundInput& input) {
+  if (input.objects.empty()) return;
+  frame.objects = input.objects.front();
+  frame.objects_status = CueStatus::kAbsent;
+  if (!filter.started() || !frame.predicted) return;
+  const double var = covariance->objects_repetition() * frame.objects.n3_var;
+  const bool taken = filter.observe_pitch(frame.objects.n3, var);
+  frame.objects_status = taken ? CueStatus::kUsed : CueStatus::kGated;
+}
+
 void GroundEstimator::Impl::write_cues() {
   out.plane = PlaneOutput{};
   out.plane.cues.fill(absent_cue());
@@ -313,6 +331,15 @@ void GroundEstimator::Impl::write_cues() {
     dense = {
         frame.dense_status,          height,    state(0),  state(1),
         height * height * cov(2, 2), cov(0, 0), cov(1, 1), covariance->dense_quality(frame.dense)};
+  }
+  CueObservation& objects = out.plane.cues[kCueObjects];
+  objects.status = frame.objects_status;
+  if (frame.objects_status != CueStatus::kAbsent) {
+    objects.n3 = frame.objects.n3;
+    objects.n3_var = frame.objects.n3_var;
+    objects.quality = frame.objects.quality;
+    objects.features = {frame.objects.belief};
+    objects.num_features = 1;
   }
   CueObservation& points = out.plane.cues[kCuePoints];
   points.status = frame.points_status;

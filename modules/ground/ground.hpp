@@ -72,7 +72,7 @@ struct CueObservation {
   double quality = 0.0;  ///< [0, 1]
   /// What the cue's covariance was predicted from, as its own algorithm defines it; in process only,
   /// for learning and tests. Paper mode: widths of the slices in h, n1, n3 (dense), the vote's score
-  /// (points), the observation's own variance (objects).
+  /// (points). Both modes: the variance by the boxes alone (objects).
   std::array<double, kMaxCueFeatures> features{};
   int num_features = 0;
 };
@@ -83,16 +83,18 @@ struct CueObservation {
 /// The calibration's where it states one.
 [[nodiscard]] double camera_height_of(const GroundConfig& config, const CameraModel& camera);
 
-/// The camera's pitch out of one detected object.
+/// The camera's pitch out of detected objects.
 struct ObjectNormal {
   double n3 = 0.0;
-  double n3_var = 0.0;  ///< > 0
+  double n3_var = 0.0;   ///< > 0
+  double belief = 0.0;   ///< what n3_var was predicted from: the variance by the boxes alone
+  double quality = 0.0;  ///< [0, 1]
 };
 
 struct GroundInput {
   const VoOutput* vo = nullptr;                ///< never null
   ImageView image;                             ///< image of vo->seq; empty when it did not arrive
-  std::span<const ObjectNormal> objects = {};  ///< of the same image; paper mode only
+  std::span<const ObjectNormal> objects = {};  ///< brought to the same image (object_pitch.hpp)
 };
 
 struct PlaneOutput {

@@ -23,6 +23,7 @@ struct GroundConfig {
   std::string covariance = "learned";
   std::string model_file;
   std::string cues = "all";
+  int detections_delay_images = 1;
   double camera_height_m = 1.65;
   double road_near_m = 5.5;
   double road_far_m = 20.0;
@@ -39,6 +40,10 @@ struct GroundConfig {
     field("ground.model_file", c.model_file,
           "model written by plumb-train fit; empty: config/ground_model.toml as of the build");
     field("ground.cues", c.cues, {"all", "dense", "points"}, "paper mode: cues of height to fuse");
+    field(
+        "ground.detections_delay_images", c.detections_delay_images, 0, 8,
+        "detected objects tell the pitch this many images after their own, so that results do not "
+        "depend on the detector's time; those later are refused; 0: never used");
     field("ground.camera_height_m", c.camera_height_m, 0.3, 4.0,
           "optical centre above the road; a calibration message that states one wins");
     field("ground.road_near_m", c.road_near_m, 1.0, 20.0,

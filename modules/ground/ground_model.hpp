@@ -14,7 +14,7 @@
 
 namespace plumb {
 
-inline constexpr int kGroundModelVersion = 2;
+inline constexpr int kGroundModelVersion = 3;
 inline constexpr std::size_t kNumCueFeatures = 4;
 using CueFeatures = std::array<double, kNumCueFeatures>;
 
@@ -78,7 +78,9 @@ struct GroundModel {
   /// Way over which a cue's errors of the height stay alike, in camera heights.
   double dense_memory_ratio = 0.0;
   double points_memory_ratio = 0.0;
+  double objects_repetition = 1.0;  ///< images over which the objects' error of n3 stays alike
   PlaneBias bias;
+  LinearVariance objects_n3;  ///< of n3 out of detected objects, by the variance of the boxes alone
   PaperModel paper;
 
   /// Numbers only, under the names of the file's sections; origin is the loader's.

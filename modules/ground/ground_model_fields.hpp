@@ -69,15 +69,17 @@ void GroundModel::visit(Model& m, Visit&& field) {
   field("memory.dense_ratio", m.dense_memory_ratio, 0.0, 1000.0,
         "camera heights of way over which the dense cue's errors stay alike");
   field("memory.points_ratio", m.points_memory_ratio, 0.0, 1000.0, "the same, points");
+  field("memory.objects_images", m.objects_repetition, 1.0, 1000.0,
+        "images that share one error of the detected objects' pitch");
   field("bias.ln_scale_std", m.bias.ln_scale_std, 0.0, 0.5, "1-sigma of what a whole drive keeps");
   field("bias.ln_height_std", m.bias.ln_height_std, 0.0, 0.5, "the same");
   field("bias.pitch_std_rad", m.bias.pitch_std_rad, 0.0, 0.2, "the same");
   field("bias.roll_std_rad", m.bias.roll_std_rad, 0.0, 0.2, "the same");
+  visit_line("objects_n3", m.objects_n3, field);
   visit_line("paper_dense_n1", m.paper.dense_n1, field);
   visit_line("paper_dense_n3", m.paper.dense_n3, field);
   visit_line("paper_dense_h", m.paper.dense_h, field);
   visit_line("paper_points_h", m.paper.points_h, field);
-  visit_line("paper_objects_n3", m.paper.objects_n3, field);
 }
 
 }  // namespace plumb

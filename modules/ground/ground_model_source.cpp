@@ -51,11 +51,11 @@ GroundModel load_ground_model(const std::string& path) {
   check("dense_height", model.dense_height);
   check("points", model.points);
   check("travel", model.travel);
+  check_bounds(path, "objects_n3", model.objects_n3.least, model.objects_n3.most);
   check_bounds(path, "paper_dense_n1", model.paper.dense_n1.least, model.paper.dense_n1.most);
   check_bounds(path, "paper_dense_n3", model.paper.dense_n3.least, model.paper.dense_n3.most);
   check_bounds(path, "paper_dense_h", model.paper.dense_h.least, model.paper.dense_h.most);
   check_bounds(path, "paper_points_h", model.paper.points_h.least, model.paper.points_h.most);
-  check_bounds(path, "paper_objects_n3", model.paper.objects_n3.least, model.paper.objects_n3.most);
   return model;
 }
 

@@ -6,9 +6,13 @@
 
 namespace plumb {
 
-GroundNode::GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink,
-                       const GroundModel& model)
-    : config_(config), model_(model), probe_(probe), sink_(std::move(sink)) {}
+GroundNode::GroundNode(const GroundConfig& config, const DetectionsConfig& detections,
+                       StageProbe* probe, Sink sink, const GroundModel& model)
+    : config_(config),
+      detections_(detections),
+      model_(model),
+      probe_(probe),
+      sink_(std::move(sink)) {}
 
 const char* GroundNode::take_calibration(const camera_calibration_t& message) {
   CameraModel camera;
@@ -21,6 +25,7 @@ const char* GroundNode::take_calibration(const camera_calibration_t& message) {
   decoder_.emplace(camera.width_px, camera.height_px);
   images_.emplace(camera.width_px, camera.height_px);
   algorithm_ = make_ground_algorithm(config_, camera, model_);
+  object_pitch_ = std::make_unique<ObjectPitch>(config_, detections_, camera, model_.objects_n3);
   return nullptr;
 }
 
@@ -58,6 +63,12 @@ const char* GroundNode::take_motion(const vo_motion_t& message) {
   return refused;
 }
 
+const char* GroundNode::take_detections(const detections_t& message) {
+  if (const char* why = from_wire(message, &arrived_)) return why;
+  if (!calibrated()) return "detections came before a calibration";
+  return object_pitch_->take(arrived_);
+}
+
 void GroundNode::expire() {
   if (waiting_) (void)process(nullptr);
 }
@@ -73,12 +84,13 @@ void GroundNode::count_lost_motion(const vo_motion_t& message) {
 const char* GroundNode::process(const ImageFrame* frame) {
   waiting_ = false;
   probe_->begin();
-  GroundInput input{&vo_, {}};
+  GroundInput input{&vo_, {}, object_pitch_->update(vo_)};
   const char* refused = nullptr;
   if (frame != nullptr) refused = decoder_->decode(*frame, &input.image);
   if (input.image.empty()) ++num_unpaired_;
   probe_->mark("decode");
   output_ = &algorithm_->update(input, *probe_);
+  object_pitch_->note(output_->plane);
   publish(*output_);
   return refused;
 }

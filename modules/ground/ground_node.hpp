@@ -4,6 +4,7 @@
 ///          waits: for the image, for the next motion, or for expire(), whichever comes first; in the last two cases
 ///          it is processed without an image (IMAGE_MISSING). Results depend on the messages, never on the clock, as
 ///          long as no image is lost.
+/// Objects  detections enter `ground.detections_delay_images` images after their own.
 /// Start    the first sound calibration makes the estimator; before it, motions yield INVALID, NO_CALIBRATION.
 #pragma once
 
@@ -13,9 +14,11 @@
 #include <optional>
 #include <span>
 
+#include "modules/detections/detections_wire.hpp"
 #include "modules/geometry/stage_probe.hpp"
 #include "modules/ground/ground.hpp"
 #include "modules/ground/ground_wire.hpp"
+#include "modules/ground/object_pitch.hpp"
 #include "modules/ground/pending_images.hpp"
 #include "modules/imaging/image_wire.hpp"
 #include "modules/vo/vo_wire.hpp"
@@ -29,13 +32,15 @@ class GroundNode {
   using Sink = std::function<void(const ground_plane_t&, const ego_motion_t&)>;
 
   /// `probe` outlives the node; a "decode" stage is marked before the estimator's own.
-  GroundNode(const GroundConfig& config, StageProbe* probe, Sink sink,
-             const GroundModel& model = built_in_ground_model());
+  GroundNode(const GroundConfig& config, const DetectionsConfig& detections, StageProbe* probe,
+             Sink sink, const GroundModel& model = built_in_ground_model());
 
   /// Null when taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes);
   [[nodiscard]] const char* take_motion(const vo_motion_t& message);
+  /// Detections of any image that is not yet used (object_pitch.hpp).
+  [[nodiscard]] const char* take_detections(const detections_t& message);
   /// The image of a waiting motion will not come any more.
   void expire();
 
@@ -59,6 +64,7 @@ class GroundNode {
   void publish(const GroundOutput& output);
 
   GroundConfig config_;
+  DetectionsConfig detections_;
   GroundModel model_;
   StageProbe* probe_;
   Sink sink_;
@@ -66,6 +72,8 @@ class GroundNode {
   std::optional<ImageDecoder> decoder_;
   std::optional<PendingImages> images_;
   std::unique_ptr<GroundAlgorithm> algorithm_;
+  std::unique_ptr<ObjectPitch> object_pitch_;
+  DetectionFrame arrived_;
   const GroundOutput* output_ = nullptr;
   LossCounter losses_;
   VoOutput vo_;  ///< the motion in hand, or waiting

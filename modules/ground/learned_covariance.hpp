@@ -20,6 +20,7 @@ class LearnedCovariance final : public CueCovariance {
   [[nodiscard]] double travel(const Travel& travel, const CueContext& context) const override;
   [[nodiscard]] double dense_repetition(const CueContext& context) const override;
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
+  [[nodiscard]] double objects_repetition() const override { return model_.objects_repetition; }
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
   [[nodiscard]] PlaneBias bias() const override { return model_.bias; }

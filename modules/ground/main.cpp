@@ -1,4 +1,4 @@
-/// CAMERA, CAMERA_CALIBRATION, VO_MOTION -> ground plane, scale, metric motion -> GROUND_PLANE, EGO_MOTION, MOUNT
+/// CAMERA, CAMERA_CALIBRATION, VO_MOTION, DETECTIONS -> ground plane, scale, metric motion -> GROUND_PLANE, EGO_MOTION, MOUNT
 #include <optional>
 
 #include "modules/config.hpp"
@@ -15,7 +15,7 @@ class GroundProcess {
   GroundProcess(plumb::Process& process, const plumb::PlumbConfig& config)
       : process_(process),
         node_(
-            config.ground, &process.timer(),
+            config.ground, config.detections, &process.timer(),
             [this](const auto& plane, const auto& ego) { publish(plane, ego); },
             plumb::load_ground_model(config.ground.model_file)),
         plane_(process.bus(), plumb::kGroundPlane),
@@ -28,6 +28,8 @@ class GroundProcess {
                 [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }),
         motion_(process.bus(), plumb::kVoMotion, plumb::Input::kPeriodic,
                 [this](const plumb::vo_motion_t& m) { return on_motion(m); }),
+        detections_(process.bus(), plumb::kDetections, plumb::Input::kOccasional,
+                    [this](const plumb::detections_t& m) { return node_.take_detections(m); }),
         image_timeout_(process.loop().timer([this] { node_.expire(); })) {
     process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
   }
@@ -80,6 +82,7 @@ class GroundProcess {
   plumb::Subscriber<plumb::camera_calibration_t> calibration_;
   plumb::RawSubscriber camera_;
   plumb::Subscriber<plumb::vo_motion_t> motion_;
+  plumb::Subscriber<plumb::detections_t> detections_;
   plumb::EventLoop::TimerId image_timeout_;
 };
 

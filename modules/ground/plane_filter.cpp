@@ -123,6 +123,10 @@ void PlaneFilter::observe_travel(const Eigen::Vector3d& direction, double var) {
   (void)update_scalar(H, -normal().dot(direction), var, false);
 }
 
+bool PlaneFilter::observe_pitch(double n3, double var) {
+  return update_scalar(Eigen::RowVector3d::UnitY(), n3 - x_(1), var, true);
+}
+
 bool PlaneFilter::observe_plane(const Eigen::Vector3d& state, const Eigen::Matrix3d& cov) {
   const Eigen::Vector3d residual = state - x_;
   Eigen::Matrix3d R = cov;

@@ -45,6 +45,8 @@ class PlaneFilter {
   void observe_level_roll();
   /// n . direction = 0 with variance `var`.
   void observe_travel(const Eigen::Vector3d& direction, double var);
+  /// n3 with variance `var`. False when the gate refuses.
+  bool observe_pitch(double n3, double var);
   /// The whole state at once. False when the gate refuses.
   bool observe_plane(const Eigen::Vector3d& state, const Eigen::Matrix3d& cov);
   /// ln(n . centre) = ln h with variance `var`. False when the gate refuses.

@@ -43,9 +43,10 @@ struct Rehearsal {
     vo.scale_carry_std = carry_std;
     return step(vo, k);
   }
-  const GroundOutput& step(const VoOutput& vo, int k) {
+  const GroundOutput& step(const VoOutput& vo, int k, std::span<const ObjectNormal> objects = {}) {
     GroundInput input;
     input.vo = &vo;
+    input.objects = objects;
     if (with_images) input.image = footage().images[static_cast<std::size_t>(k)].view();
     return estimator.update(input, probe);
   }
@@ -86,6 +87,53 @@ TEST(GroundEstimator, IntegratedPathEndsWhereTheDriveEnds) {
   for (int k = 0; k < 36; ++k) pose = run.step(k).ego.T_world_cam;
   const Se3 truth = footage().poses[0].inverse() * footage().poses[35];
   EXPECT_LT((pose.t - truth.t).norm(), 0.015 * truth.t.norm());
+}
+
+/// rms error of n3 from frame 10 on, of a run without images whose objects are off by `bias`.
+double pitch_error(bool with_objects, double bias, CueStatus* last_status) {
+  Rehearsal run;
+  double sum = 0.0;
+  for (int k = 0; k < 36; ++k) {
+    VoOutput vo;
+    test::script_vo(footage().poses, k, run.script, &vo);
+    run.with_images = k < 6;
+    const double n3 = test::plane_in(footage().poses[static_cast<std::size_t>(k)]).normal_cam.z();
+    const ObjectNormal objects{n3 + bias, 1e-6, 1e-6, 1.0};
+    const GroundOutput& out =
+        run.step(vo, k, with_objects ? std::span{&objects, 1} : std::span<const ObjectNormal>{});
+    *last_status = out.plane.cues[kCueObjects].status;
+    if (k >= 10) sum += (out.plane.normal_cam.z() - n3) * (out.plane.normal_cam.z() - n3);
+  }
+  return std::sqrt(sum / 26.0);
+}
+
+TEST(GroundEstimator, DetectedObjectsCarryThePitchWhenTheRoadIsNotSeen) {
+  CueStatus status{};
+  const double without = pitch_error(false, 0.0, &status);
+  EXPECT_EQ(status, CueStatus::kAbsent);
+  const double with = pitch_error(true, 0.0, &status);
+  EXPECT_EQ(status, CueStatus::kUsed);
+  EXPECT_LT(with, 0.7 * without) << with << " against " << without;
+  const double contradicted = pitch_error(true, 0.1, &status);
+  EXPECT_EQ(status, CueStatus::kGated);
+  EXPECT_DOUBLE_EQ(contradicted, without) << "what is refused changes nothing";
+}
+
+TEST(GroundEstimator, ObjectsTellNothingBeforeThereIsAPlaneOrAtRest) {
+  Rehearsal run;
+  const ObjectNormal objects{0.0, 1e-6, 1e-6, 1.0};
+  VoOutput vo;
+  test::script_vo(footage().poses, 0, run.script, &vo);
+  EXPECT_EQ(run.step(vo, 0, {&objects, 1}).plane.cues[kCueObjects].status, CueStatus::kAbsent);
+  for (int k = 1; k < 8; ++k) run.step(k);
+  test::script_vo(footage().poses, 8, run.script, &vo);
+  vo.status = VoStatus::kStandstill;
+  const double before = run.step(7).plane.cov(0, 0);
+  for (int k = 0; k < 20; ++k) {
+    const GroundOutput& out = run.step(vo, 8, {&objects, 1});
+    EXPECT_EQ(out.plane.cues[kCueObjects].status, CueStatus::kAbsent);
+    EXPECT_GT(out.plane.cov(0, 0), 0.5 * before);
+  }
 }
 
 TEST(GroundEstimator, WorksOnPointsWhenImagesAreMissing) {

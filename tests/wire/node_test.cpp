@@ -82,7 +82,8 @@ class GroundNodeTest : public testing::Test {
  protected:
   GroundNodeTest()
       : node_(std::make_unique<GroundNode>(
-            GroundConfig{}, &probe_, [this](const ground_plane_t& plane, const ego_motion_t& ego) {
+            GroundConfig{}, DetectionsConfig{}, &probe_,
+            [this](const ground_plane_t& plane, const ego_motion_t& ego) {
               EXPECT_EQ(plane.seq, ego.seq);
               results_.push_back(plane);
             })) {}
@@ -193,6 +194,25 @@ TEST_F(GroundNodeTest, CountsAMotionThatNeverCame) {
   motion(2);
   motion(4);  // names 3 as the one before
   EXPECT_EQ(1, node_->num_lost());
+}
+
+TEST_F(GroundNodeTest, TakesDetectionsUntilTheirTurnIsOver) {
+  detections_t message{};
+  message.seq = 1;
+  message.utime = 100'000;
+  EXPECT_STREQ("detections came before a calibration", node_->take_detections(message));
+  calibrate();
+  EXPECT_EQ(nullptr, node_->take_detections(message));
+  for (std::int64_t seq = 2; seq <= 4; ++seq) {
+    image(seq);
+    motion(seq);
+  }
+  message.seq = 2;
+  message.utime = 200'000;
+  EXPECT_STREQ("detections came later than ground.detections_delay_images allows",
+               node_->take_detections(message));
+  message.num_detections = -1;
+  EXPECT_NE(nullptr, node_->take_detections(message));
 }
 
 TEST_F(GroundNodeTest, RefusesAMotionThatBreaksItsContract) {

@@ -11,7 +11,7 @@ Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink,
                ObjectsSink objects_sink)
     : vo_(config.vo, seed, &vo_timer_),
       ground_(
-          config.ground, &ground_timer_,
+          config.ground, config.detections, &ground_timer_,
           [this](const ground_plane_t& plane, const ego_motion_t& ego) {
             plane_ = &plane;
             ego_ = &ego;
@@ -84,8 +84,11 @@ void Replay::take_image(std::span<const std::uint8_t> bytes) {
 void Replay::take_detections(std::span<const std::uint8_t> bytes) {
   detections_t message;
   if (!decode_bounded(bytes, &message)) return refuse(kDetections.name, "not a detections_t");
-  if (const char* why = objects_.take_detections(message)) return refuse(kDetections.name, why);
+  const char* ground_refused = ground_.take_detections(message);
+  const char* objects_refused = objects_.take_detections(message);
   objects_.expire();  // no plane comes later in a log
+  const char* why = ground_refused != nullptr ? ground_refused : objects_refused;
+  if (why != nullptr) refuse(kDetections.name, why);
 }
 
 void Replay::take_objects(const objects_t& objects) {

@@ -21,12 +21,6 @@ constexpr double kStartHeightRatio = 0.15;
 // A correction beyond this factor is none: the search begins anew.
 constexpr double kLargestCorrection = 5.0;
 
-/// n = (cos p sin r, cos p cos r, sin p), as plane_angles.hpp.
-Eigen::Vector3d calibrated_normal(const PaperConfig& paper) {
-  const double p = paper.pitch_rad, r = paper.roll_rad;
-  return {std::cos(p) * std::sin(r), std::cos(p) * std::cos(r), std::sin(p)};
-}
-
 }  // namespace
 
 struct PaperGround::Impl {
@@ -35,7 +29,7 @@ struct PaperGround::Impl {
         camera(camera_in),
         model(model_in),
         height_m(camera_height_of(config, camera)),
-        normal_calibrated(calibrated_normal(config.paper)),
+        normal_calibrated(normal_from_angles(config.paper.pitch_rad, config.paper.roll_rad)),
         box(region_of(camera, config.paper.region_width_ratio, config.paper.region_height_ratio)),
         images(camera.width_px, camera.height_px),
         dense_cue(camera, box, config.paper.rho),
@@ -248,17 +242,16 @@ void PaperGround::Impl::write_objects(std::span<const ObjectNormal> objects, Cue
   CueFusion together;
   for (const ObjectNormal& object : objects) {
     if (!std::isfinite(object.n3) || !(object.n3_var > 0.0)) continue;
-    const double var = var_of(model.objects_n3, object.n3_var);
-    together.add(kN3, object.n3, var);
-    fused->add(kN3, object.n3, var);
+    together.add(kN3, object.n3, object.n3_var);
+    fused->add(kN3, object.n3, object.n3_var);
   }
   if (!together.observes(kN3)) return;
   CueObservation& cue = out.plane.cues[kCueObjects];
   cue.status = CueStatus::kUsed;
   cue.n3 = together.value(kN3);
   cue.n3_var = together.var(kN3);
-  cue.quality = std::min(1.0, model.objects_n3.least / cue.n3_var);
-  cue.features = {cue.n3_var};
+  cue.quality = objects.front().quality;
+  cue.features = {objects.front().belief};
   cue.num_features = 1;
 }
 

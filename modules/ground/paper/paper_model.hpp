@@ -27,8 +27,6 @@ struct PaperModel {
   LinearVariance dense_n3;
   LinearVariance dense_h;   ///< [m^2]
   LinearVariance points_h;  ///< [m^2]
-  /// Belief: the variance that comes with the observation.
-  LinearVariance objects_n3;
 };
 
 }  // namespace plumb

@@ -96,7 +96,7 @@ TEST(LinearVariance, OfTheBuiltInModelGrowsWithDoubt) {
   }
   EXPECT_LT(model.points_h.slope, 0.0);
   for (const LinearVariance* line :
-       {&model.dense_n1, &model.dense_n3, &model.dense_h, &model.points_h, &model.objects_n3}) {
+       {&model.dense_n1, &model.dense_n3, &model.dense_h, &model.points_h}) {
     EXPECT_GT(line->least, 0.0);
     EXPECT_LT(line->least, line->most);
     EXPECT_GT(line->mean, line->least);
