@@ -94,6 +94,34 @@ TEST(Fit, ChoosesTheDeviationsOfADriveThatMakeReportedOnesTrue) {
   EXPECT_EQ(model.bias.pitch_std_rad, 0.0);
 }
 
+TEST(Fit, FindsHowObjectsErrByTheirOwnVarianceAndHowLong) {
+  auto drives = three_drives();
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  for (DriveSamples& drive : drives) {
+    double memory = normal(random);
+    for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+      memory = 0.6 * memory + 0.8 * normal(random);
+      const double belief = 1e-5 * (1.0 + 3.0 * static_cast<double>(i % 50) / 50.0);
+      drive.frames[i].objects_belief = belief;
+      drive.frames[i].objects_err_n3 = std::sqrt(2.0 * belief) * memory;
+    }
+  }
+  GroundModel model = built_in_ground_model();
+  const auto fit = fit_objects(drives, &model);
+  ASSERT_TRUE(fit.has_value());
+  EXPECT_NEAR(model.objects_n3.slope, 2.0, 0.5);
+  EXPECT_NEAR(model.objects_n3.of(2e-5), 4e-5, 5e-6);
+  EXPECT_NEAR(model.objects_repetition, (1.0 + 0.6) / (1.0 - 0.6), 1.2);
+}
+
+TEST(Fit, WithoutObjectsTheirModelStays) {
+  GroundModel model = built_in_ground_model();
+  model.objects_repetition = 7.5;
+  EXPECT_FALSE(fit_objects(three_drives(), &model).has_value());
+  EXPECT_EQ(model.objects_repetition, 7.5);
+}
+
 TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
   auto drives = three_drives();
   for (Sample& s : drives[2].frames) s.points_err *= 3.0;

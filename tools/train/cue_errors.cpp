@@ -84,6 +84,13 @@ void write_travel(const GroundSight& sight, const CueReference& reference, Sampl
   if (reference.plane != nullptr) sample->travel_err = sample->travel_ref;
 }
 
+void write_objects(const CueObservation& objects, const TruePlane* truth, Sample* sample) {
+  const bool seen = objects.status == CueStatus::kUsed || objects.status == CueStatus::kGated;
+  if (!seen || truth == nullptr) return;
+  sample->objects_belief = objects.features[0];
+  sample->objects_err_n3 = objects.n3 - truth->normal_cam.z();
+}
+
 void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,
                  const TruePlane* truth, Sample* sample) {
   const CueObservation& dense = plane.cues[kCueDense];

@@ -25,6 +25,8 @@ struct CueReference {
 void write_dense(const GroundSight& sight, const CueReference& reference, Sample* sample);
 void write_points(const GroundSight& sight, const CueReference& reference, Sample* sample);
 void write_travel(const GroundSight& sight, const CueReference& reference, Sample* sample);
+/// Without true plane nothing.
+void write_objects(const CueObservation& objects, const TruePlane* truth, Sample* sample);
 
 /// The published method's cues; `truth` may be null.
 void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,

@@ -73,22 +73,30 @@ double held_out_factor(Target target, const std::vector<std::vector<TargetRow>>&
 
 }  // namespace
 
-double repetition_in(const std::vector<std::vector<TargetRow>>& drives, const LogVariance& model) {
+double repetition_of_errors(const std::vector<std::vector<TimedError>>& drives) {
+  const auto bounded = [](const TimedError& e) { return std::clamp(e.sigmas, -3.0, 3.0); };
   double square = 0.0;
   double product = 0.0;
   for (const auto& drive : drives) {
-    std::vector<double> z;
-    for (const TargetRow& row : drive) {
-      const double var = model.of(row.row.features) + row.row.extra_var;
-      z.push_back(std::clamp(row.row.error / std::sqrt(var), -3.0, 3.0));
-    }
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      square += z[i] * z[i];
-      for (std::size_t k = i + 1; k < z.size() && drive[k].seq - drive[i].seq <= kMostLag; ++k)
-        product += 2.0 * z[i] * z[k];
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+      const double z = bounded(drive[i]);
+      square += z * z;
+      for (std::size_t k = i + 1; k < drive.size() && drive[k].seq - drive[i].seq <= kMostLag; ++k)
+        product += 2.0 * z * bounded(drive[k]);
     }
   }
   return square > 0.0 ? std::max(1.0, 1.0 + product / square) : 1.0;
+}
+
+double repetition_in(const std::vector<std::vector<TargetRow>>& drives, const LogVariance& model) {
+  std::vector<std::vector<TimedError>> errors(drives.size());
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    for (const TargetRow& row : drives[i]) {
+      const double var = model.of(row.row.features) + row.row.extra_var;
+      errors[i].push_back({row.seq, row.row.error / std::sqrt(var)});
+    }
+  }
+  return repetition_of_errors(errors);
 }
 
 double memory_of_repetition(double repetition, double step_ratio) {
@@ -160,6 +168,29 @@ std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives, GroundM
     fits.push_back(std::move(fit));
   }
   return fits;
+}
+
+std::optional<PaperFit> fit_objects(const std::vector<DriveSamples>& drives, GroundModel* model) {
+  const auto seen = [](const Sample& s) { return std::isfinite(s.objects_err_n3); };
+  std::vector<Belief> beliefs;
+  for (const DriveSamples& drive : drives) {
+    for (const Sample& s : drive.frames)
+      if (seen(s)) beliefs.push_back({s.objects_belief, s.objects_err_n3});
+  }
+  if (beliefs.size() < kFewestRows) return std::nullopt;
+  PaperFit fit{"objects n3", bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
+  fit.line = model->objects_n3 = fit_line(fit.bins);
+  std::vector<std::vector<TimedError>> errors;
+  for (const DriveSamples& drive : drives) {
+    errors.emplace_back();
+    for (const Sample& s : drive.frames) {
+      if (seen(s))
+        errors.back().push_back(
+            {s.seq, s.objects_err_n3 / std::sqrt(fit.line.of(s.objects_belief))});
+    }
+  }
+  model->objects_repetition = repetition_of_errors(errors);
+  return fit;
 }
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 /// The reduce step: samples of many drives -> one model, with scores on drives that the fit did not see.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,18 @@ struct PaperFit {
 [[nodiscard]] std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives,
                                               GroundModel* model);
 
+/// Model C_d of Algorithm 1, objects_n3 and objects_repetition: out of the samples of drives with detections and true
+/// planes; without any, null and the model stays.
+[[nodiscard]] std::optional<PaperFit> fit_objects(const std::vector<DriveSamples>& drives,
+                                                  GroundModel* model);
+
+/// One frame's error over its deviation.
+struct TimedError {
+  double seq = 0.0;
+  double sigmas = 0.0;
+};
 /// Sum of the errors' correlations with those of the frames before, both ways, and the memory that has the same sum.
+[[nodiscard]] double repetition_of_errors(const std::vector<std::vector<TimedError>>& drives);
 [[nodiscard]] double repetition_in(const std::vector<std::vector<TargetRow>>& drives,
                                    const LogVariance& model);
 [[nodiscard]] double memory_of_repetition(double repetition, double step_ratio);

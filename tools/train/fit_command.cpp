@@ -96,6 +96,8 @@ int run_fit_command(const FitCommand& command) {
     report.model = fit_cues(drives, start);
     fit_bias(drives, &report.model);
     std::cout << to_text(report.held_out);
+    report.objects = fit_objects(drives, &report.model);
+    if (report.objects) std::cout << to_text({*report.objects});
   }
   report.outputs = score_outputs(all);
   std::cout << to_text(report.outputs);

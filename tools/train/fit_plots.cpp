@@ -52,7 +52,7 @@ Plot belief_plot(const PaperFit& fit) {
     line.x.push_back(bin.centre);
     line.y.push_back(fit.line.of(bin.centre));
   }
-  return {std::string("published method, ") + fit.name + ": error variance by belief",
+  return {std::string(fit.name) + ": error variance by belief",
           "belief",
           "mean squared error",
           {bins, line},
@@ -79,6 +79,10 @@ std::vector<fs::path> draw_fit(const std::vector<DriveSamples>& drives, const Fi
   if (!beliefs.empty()) {
     files.push_back(folder / ("paper_beliefs." + format));
     draw(beliefs, files.back());
+  }
+  if (report.objects) {
+    files.push_back(folder / ("objects_belief." + format));
+    draw({belief_plot(*report.objects)}, files.back());
   }
   return files;
 }

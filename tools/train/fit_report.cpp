@@ -67,7 +67,7 @@ std::string to_text(const std::vector<OutputScore>& scores) {
 }
 
 std::string to_text(const std::vector<PaperFit>& fits) {
-  std::string text = "Lines of the published method: variance = offset + slope * belief\n";
+  std::string text = "Lines by belief: variance = offset + slope * belief\n";
   for (const PaperFit& fit : fits) {
     text += format("  %-9s %4zu bins  offset %.4g  slope %.4g  [%.4g, %.4g]  mean %.4g\n", fit.name,
                    fit.bins.size(), fit.line.offset, fit.line.slope, fit.line.least, fit.line.most,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct FitReport {
   std::vector<HeldOutScore> held_out;
   std::vector<OutputScore> outputs;
   std::vector<PaperFit> paper;
+  std::optional<PaperFit> objects;
 };
 
 [[nodiscard]] std::string to_text(const std::vector<HeldOutScore>& scores);

@@ -63,6 +63,9 @@ struct Sample {
   double points_err = kNone;
   double points_ref_var = kNone;
   double points_hand_var = kNone;
+  // Detected objects.
+  double objects_belief = kNone;  ///< variance of n3 by the boxes alone
+  double objects_err_n3 = kNone;
   // Direction of travel.
   double travel_chord_ratio = kNone;  ///< chord in camera heights
   double travel_num_frames = kNone;

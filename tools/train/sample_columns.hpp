@@ -52,6 +52,8 @@ void Sample::visit(S& s, Field&& field) {
   field("points_err", s.points_err);
   field("points_ref_var", s.points_ref_var);
   field("points_hand_var", s.points_hand_var);
+  field("objects_belief", s.objects_belief);
+  field("objects_err_n3", s.objects_err_n3);
   field("travel_chord_ratio", s.travel_chord_ratio);
   field("travel_num_frames", s.travel_num_frames);
   field("travel_err", s.travel_err);

@@ -1,6 +1,6 @@
 /// Files of samples: one drive each, text, complete or not there.
 ///
-/// Line 1 says what it is ("# plumb-train samples, version 1, drive NAME, model ID"), line 2 names the columns, then one
+/// Line 1 says what it is ("# plumb-train samples, version 2, drive NAME, model ID"), line 2 names the columns, then one
 /// row per frame, and "# end N" with the number of rows. A file appears under its name when it is complete.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace plumb {
 
-inline constexpr int kSamplesVersion = 1;
+inline constexpr int kSamplesVersion = 2;
 
 struct DriveSamples {
   std::string drive;      ///< no commas or blanks

@@ -71,6 +71,7 @@ void Sampler::add(const SampledFrame& frame) {
     sample.true_n3 = plane->normal_cam.z();
     write_plane_output(*frame.plane, *plane, &sample);
   }
+  write_objects(frame.output->plane.cues[kCueObjects], plane, &sample);
   const auto motion = truth_->motion(frame.vo->prev_seq, frame.vo->seq);
   if (motion) write_motion_output(*frame.ego, *motion, &sample);
   if (scale.known && frame.ego->log_scale_std > 0.0) {
