@@ -2,6 +2,8 @@
 /// what boxes are worth are in detections_config.hpp.
 #pragma once
 
+#include <string>
+
 #include "modules/detections/detection.hpp"
 
 namespace plumb {
@@ -15,6 +17,7 @@ struct FootprintPrior {
 };
 
 struct ObjectsConfig {
+  std::string plane = "measured";
   FootprintPrior car{1.67, 0.12, 2.40, 0.22};
   FootprintPrior van{1.90, 0.15, 2.60, 0.30};
   FootprintPrior truck{2.50, 0.20, 3.50, 1.00};
@@ -58,6 +61,10 @@ struct ObjectsConfig {
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
+    field(
+        "objects.plane", c.plane, {"measured", "calibrated"},
+        "road that objects stand on: GROUND_PLANE where it holds; or always the calibrated plane, "
+        "for comparison");
     const auto footprint = [&field](const char* width, const char* width_std, const char* ratio,
                                     const char* ratio_std, auto& prior) {
       field(width, prior.width_m, 0.2, 4.0, "mean width of the class");

@@ -120,7 +120,7 @@ void ObjectsNode::process(const Ground* ground) {
   waiting_ = false;
   ObjectsInput input;
   input.frame = &frame_;
-  input.plane_measured = ground != nullptr && ground->plane_holds;
+  input.plane_measured = ground != nullptr && ground->plane_holds && objects_.plane == "measured";
   input.plane = input.plane_measured ? ground->plane : calibrated_plane();
 
   Ground now;

@@ -213,9 +213,18 @@ class ObjectsNodeTest : public testing::Test {
     return node_.take_ego(ego);
   }
 
+  static ObjectsConfig on_plane(const char* plane) {
+    ObjectsConfig config;
+    config.plane = plane;
+    return config;
+  }
+  ObjectsNode make(const ObjectsConfig& config) {
+    return {DetectionsConfig{}, config, GroundConfig{},
+            [this](const objects_t& m) { published_.push_back(m); }};
+  }
+
   std::vector<objects_t> published_;
-  ObjectsNode node_{DetectionsConfig{}, ObjectsConfig{}, GroundConfig{},
-                    [this](const objects_t& m) { published_.push_back(m); }};
+  ObjectsNode node_ = make({});
 };
 
 TEST_F(ObjectsNodeTest, ProcessesDetectionsWithThePlaneOfTheirImage) {
@@ -253,6 +262,18 @@ TEST_F(ObjectsNodeTest, DetectionsWaitForTheirPlaneAndGoOnWithoutIt) {
   ASSERT_EQ(published_.size(), 2u);
   EXPECT_EQ(published_[1].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
   EXPECT_TRUE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0]));
+}
+
+TEST_F(ObjectsNodeTest, KeepsToTheCalibratedPlaneWhenAskedTo) {
+  node_ = make(on_plane("calibrated"));
+  calibrate();
+  for (int seq = 1; seq <= 2; ++seq) {
+    ASSERT_EQ(take_ground(seq), nullptr);
+    ASSERT_EQ(node_.take_detections(sound(seq)), nullptr);
+    ASSERT_EQ(published_.size(), static_cast<std::size_t>(seq));
+    EXPECT_EQ(published_.back().objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
+  }
+  EXPECT_FALSE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0])) << "motion is used";
 }
 
 TEST_F(ObjectsNodeTest, RefusesWhatComesTooEarlyTwiceOrOutOfOrder) {
