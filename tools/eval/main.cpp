@@ -1,4 +1,4 @@
-/// plumb-eval: how far an estimated trajectory, or estimated ground planes, are from the truth.
+/// plumb-eval: how far an estimated trajectory, estimated ground planes, or placed objects, are from the truth.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -10,6 +10,7 @@
 #include "tools/eval/report_json.hpp"
 #include "tools/eval/report_text.hpp"
 #include "tools/objects_eval/objects_command.hpp"
+#include "tools/objects_eval/placement_command.hpp"
 #include "tools/support/tool_main.hpp"
 
 namespace plumb {
@@ -20,7 +21,8 @@ constexpr const char* kFooter = R"(Examples
   plumb-eval poses/05.txt out/05.txt --lengths 10,20,50  for a short drive
   plumb-eval --gt-dir poses --est-dir out --json all.json --plots pictures
   plumb-eval plane gt_ground_plane_velodyne.txt out/04.csv
-  plumb-eval objects kitti/tracking --boxes det2d/CIWT
+  plumb-eval objects kitti/tracking --boxes det2d/CIWT   from boxes alone
+  plumb-eval placed drive0009 frames.csv objects.csv     whole chain
 
 The metric compares relative poses only: neither file need begin with the identity.)";
 
@@ -130,11 +132,15 @@ CLI::App* add_options(CLI::App* app, Arguments* arguments) {
 
 int main(int argc, char** argv) {
   plumb::Arguments arguments;
-  CLI::App app("Error of estimated trajectories and ground planes against the truth", "plumb-eval");
+  CLI::App app("Error of estimated trajectories, ground planes and objects against the truth",
+               "plumb-eval");
   const CLI::App* plane = plumb::add_options(&app, &arguments);
   plumb::ObjectsCommand objects_command;
   const CLI::App* objects = plumb::add_objects_command(&app, &objects_command);
+  plumb::PlacementCommand placement_command;
+  const CLI::App* placed = plumb::add_placement_command(&app, &placement_command);
   return plumb::tool_main(&app, argc, argv, [&] {
+    if (placed->parsed()) return plumb::run_placement_command(placement_command);
     if (objects->parsed()) return plumb::run_objects_command(objects_command);
     return plane->parsed() ? plumb::evaluate_planes(arguments)
                            : plumb::evaluate_trajectories(arguments);

@@ -6,54 +6,24 @@
 #include <optional>
 
 #include "modules/detections/detection_cue.hpp"
-#include "modules/detections/foot_point.hpp"
 #include "modules/objects/objects.hpp"
 #include "platform/numbers.hpp"
 #include "platform/text.hpp"
 #include "tools/kitti_tracking/kitti_tracking.hpp"
+#include "tools/objects_eval/foot_placement.hpp"
+#include "tools/objects_eval/label_choice.hpp"
 
 namespace plumb {
 namespace {
 
 constexpr double kClose_m = 10.0;
 constexpr double kFramePeriod_s = 0.1;
-constexpr double kLeastOverlap = 0.5;
-constexpr double kFarthestRatio =
-    3.0;  ///< a foot point at the horizon counts as three times too far
 constexpr double kRollStd = 0.01;
 constexpr double kHeightStd = 0.01;
 
+const std::vector<ObjectClass> kClasses{ObjectClass::kCar, ObjectClass::kVan};
+
 using Placements = std::array<Eigen::Vector2d, kNumMethods>;  ///< (Z, X) in cam
-
-double overlap(const Box& a, const Box& b) {
-  const double width = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
-  const double height = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
-  if (width <= 0.0 || height <= 0.0) return 0.0;
-  const double both = width * height;
-  return both / (a.width_px() * a.height_px() + b.width_px() * b.height_px() - both);
-}
-
-/// The box of a label: its own, or the tracker's that overlaps it most.
-const Detection* box_of(const TrackingRow& label, const DetectionFrame& frame,
-                        bool labels_are_boxes) {
-  const Detection* found = nullptr;
-  double best = kLeastOverlap;
-  for (const Detection& detection : frame.detections) {
-    if (labels_are_boxes && detection.track_id != label.detection.track_id) continue;
-    const double share = overlap(detection.box, label.detection.box);
-    if (share <= best) continue;
-    best = share;
-    found = &detection;
-  }
-  return found;
-}
-
-bool takes_part(const TrackingRow& row, int frame) {
-  const Detection& d = row.detection;
-  const bool vehicle = d.object_class == ObjectClass::kCar || d.object_class == ObjectClass::kVan;
-  const bool visible = d.occluded == Occlusion::kVisible || d.occluded == Occlusion::kPartly;
-  return row.frame == frame && row.has_box3d && vehicle && visible && d.truncated_ratio == 0.0;
-}
 
 const ObjectOutput* track_of(const ObjectsOutput& output, std::int32_t track_id) {
   for (const ObjectOutput& object : output.objects) {
@@ -115,7 +85,7 @@ class SequenceRun {
     const ObjectsOutput& on_cue = cue_tracker_.update(input);
 
     for (const TrackingRow& label : labels_) {
-      if (!takes_part(label, frame_number)) continue;
+      if (label.frame != frame_number || !is_evaluated(label, kClasses)) continue;
       ++result_.num_labels;
       const Detection* box = box_of(label, frame, options_.boxes == "label_02");
       if (box == nullptr) continue;
@@ -131,13 +101,8 @@ class SequenceRun {
 
   [[nodiscard]] Eigen::Vector2d foot(const Detection& box, const RoadPlane& road,
                                      const Eigen::Vector3d& truth_cam) const {
-    const Eigen::Vector2d foot_px(box.box.centre_u_px(), box.box.bottom_px);
-    const auto point = back_project_foot(camera_.model, road, foot_px, Eigen::Matrix2d::Zero());
-    const FootprintPrior& size = options_.objects.footprint(box.object_class);
-    const double farthest_m = kFarthestRatio * truth_cam.z();
-    const double z_m = point ? point->p_cam.z() + 0.5 * size.width_m * size.ratio : farthest_m;
-    const double held_m = std::min(z_m, farthest_m);
-    return {held_m, held_m * camera_.model.to_normalized(foot_px).x()};
+    return place_by_foot(camera_.model, road, box.box, options_.objects.footprint(box.object_class),
+                         truth_cam.z());
   }
 
   [[nodiscard]] static Eigen::Vector2d track(const ObjectOutput& object, const RoadPlane& road) {
@@ -164,7 +129,7 @@ class SequenceRun {
   void compare_pitch(int frame, double pitch_rad) {
     double sum = 0.0, weight = 0.0;
     for (const TrackingRow& row : labels_) {
-      if (!takes_part(row, frame)) continue;
+      if (row.frame != frame || !is_evaluated(row, kClasses)) continue;
       const double z_m = row.foot_cam0.z();
       sum += (options_.camera_height_m - row.foot_cam0.y()) * z_m;
       weight += z_m * z_m;
@@ -187,7 +152,7 @@ class SequenceRun {
   int num_pitches_ = 0;
 };
 
-double mean(double sum, std::size_t count) {
+double ratio(double sum, std::size_t count) {
   return count > 0 ? sum / static_cast<double>(count) : kNan;
 }
 
@@ -215,12 +180,12 @@ void DepthErrors::add(const DepthErrors& other) {
 }
 
 double DepthErrors::depth_percent(PlacementMethod method) const {
-  return 100.0 * mean(sum_ratio[method], num_samples);
+  return 100.0 * ratio(sum_ratio[method], num_samples);
 }
 double DepthErrors::position_percent(PlacementMethod method) const {
-  return 100.0 * mean(sum_position[method], num_samples);
+  return 100.0 * ratio(sum_position[method], num_samples);
 }
-double DepthErrors::mean_nees() const { return mean(sum_nees, num_samples); }
+double DepthErrors::mean_nees() const { return ratio(sum_nees, num_samples); }
 
 std::vector<SequenceDepth> evaluate_object_depth(const ObjectDepthOptions& options) {
   std::vector<SequenceDepth> sequences;
@@ -244,7 +209,7 @@ SequenceDepth pool(const std::vector<SequenceDepth>& sequences) {
     ++num_pitches;
   }
   // Sequences weigh alike.
-  all.pitch_rms_rad = std::sqrt(mean(pitch_sum, static_cast<std::size_t>(num_pitches)));
+  all.pitch_rms_rad = std::sqrt(ratio(pitch_sum, static_cast<std::size_t>(num_pitches)));
   return all;
 }
 

@@ -24,6 +24,7 @@ std::string row_of(const objects_t& objects, const object_t& object, bool names_
     row.add("v" + axis + "_m_s", object.velocity_ground_m_s[i], holds);
     row.add("v" + axis + "_std_m_s", deviation(object.velocity_cov_m2_s2[i][i]), holds);
   }
+  row.add("xy_cov_m2", object.position_cov_m2[0][1], holds);
   row.add("yaw_rad", object.yaw_rad, holds);
   row.add("yaw_std_rad", object.yaw_std_rad, holds);
   const char* sizes[] = {"length", "width", "height"};

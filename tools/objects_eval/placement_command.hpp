@@ -1,0 +1,24 @@
+/// The subcommand `plumb-eval placed`: how far off the whole chain placed objects.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+struct PlacementCommand {
+  std::vector<std::string> files;  ///< DRIVE FRAMES_CSV OBJECTS_CSV, once or more
+  std::string boxes = "label_02.txt";
+  std::vector<std::string> classes{"car", "van"};
+  std::string config, json, plots;
+  std::string plot_format = "png";
+};
+
+/// The subcommand with its options, which fill `command`.
+CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command);
+
+/// Prints the table, writes JSON and plots. Returns the exit code; throws InputError and ConfigError.
+int run_placement_command(const PlacementCommand& command);
+
+}  // namespace plumb
