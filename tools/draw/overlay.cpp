@@ -15,7 +15,9 @@ const cv::Scalar kTextColour(255, 255, 255);
 const cv::Scalar kObjectColour(90, 90, 255);
 const cv::Scalar kPredictedColour(200, 120, 200);
 constexpr double kNearest_m = 4.0;
-constexpr double kNearestCorner_m = 0.5;
+constexpr double kNearestPoint_m = 0.5;
+constexpr double kWidestRatio =
+    1.5;  ///< further off the axis, the radial terms fold the image over
 constexpr double kFarthest_m = 40.0;
 constexpr double kHalfWidth_m = 3.6;
 
@@ -81,23 +83,39 @@ std::array<Eigen::Vector3d, 8> corners_of(const ObjectFigure& object, const Road
   return corners;
 }
 
+bool is_in_sight(const Eigen::Vector3d& p_cam) {
+  return p_cam.z() > kNearestPoint_m &&
+         p_cam.head<2>().cwiseAbs().maxCoeff() < kWidestRatio * p_cam.z();
+}
+
+/// The part of an edge that is in sight: an object beside the camera is cut by the image's border.
+void draw_edge(cv::Mat* picture, const CameraModel& camera, const Eigen::Vector3d& from,
+               const Eigen::Vector3d& to, const cv::Scalar& colour) {
+  constexpr int kPieces = 16;
+  Eigen::Vector3d last = from;
+  for (int i = 1; i <= kPieces; ++i) {
+    const Eigen::Vector3d next = from + static_cast<double>(i) / kPieces * (to - from);
+    if (is_in_sight(last) && is_in_sight(next)) {
+      cv::line(*picture, to_point(camera.project(last)), to_point(camera.project(next)), colour, 1,
+               cv::LINE_AA);
+    }
+    last = next;
+  }
+}
+
 void draw_object(cv::Mat* picture, const CameraModel& camera, const RoadPlane& plane,
                  const ObjectFigure& object) {
   const std::array<Eigen::Vector3d, 8> corners = corners_of(object, plane);
-  cv::Point2d px[8];
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (corners[i].z() < kNearestCorner_m) return;
-    px[i] = to_point(camera.project(corners[i]));
-  }
   const cv::Scalar& colour = object.measured ? kObjectColour : kPredictedColour;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
-    cv::line(*picture, px[i], px[next], colour, 1, cv::LINE_AA);
-    cv::line(*picture, px[i + 4], px[next + 4], colour, 1, cv::LINE_AA);
-    cv::line(*picture, px[i], px[i + 4], colour, 1, cv::LINE_AA);
+    draw_edge(picture, camera, corners[i], corners[next], colour);
+    draw_edge(picture, camera, corners[i + 4], corners[next + 4], colour);
+    draw_edge(picture, camera, corners[i], corners[i + 4], colour);
   }
-  cv::putText(*picture, object.label, px[7] + cv::Point2d(0, -4), cv::FONT_HERSHEY_SIMPLEX, 0.4,
-              colour, 1, cv::LINE_AA);
+  if (!is_in_sight(corners[7])) return;
+  cv::putText(*picture, object.label, to_point(camera.project(corners[7])) + cv::Point2d(0, -4),
+              cv::FONT_HERSHEY_SIMPLEX, 0.4, colour, 1, cv::LINE_AA);
 }
 
 /// Path seen from above in the upper right corner, forward is up.

@@ -1,0 +1,63 @@
+/// Objects drawn onto frames: where their edges lie, and what is left out.
+#include "tools/draw/overlay.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plumb {
+namespace {
+
+constexpr int kWidth_px = 1242, kHeight_px = 375;
+
+CameraModel kitti_camera() {
+  return {kWidth_px, kHeight_px, 721.5, 721.5, 609.6, 172.9, 0.0256, -0.0076, 1.65};
+}
+
+/// What the object changes in the picture: 255 where it does.
+cv::Mat drawn(const ObjectFigure& object) {
+  FrameFigures figures;
+  figures.plane = RoadPlane{Eigen::Vector3d::UnitY(), 1.65};
+  const cv::Mat grey(kHeight_px, kWidth_px, CV_8U, cv::Scalar(128));
+  const cv::Mat without = draw_overlay(grey, kitti_camera(), figures);
+  figures.objects = {object};
+  const cv::Mat with = draw_overlay(grey, kitti_camera(), figures);
+  cv::Mat changed(kHeight_px, kWidth_px, CV_8U, cv::Scalar(0));
+  for (int v = 0; v < kHeight_px; ++v) {
+    for (int u = 0; u < kWidth_px; ++u) {
+      if (with.at<cv::Vec3b>(v, u) != without.at<cv::Vec3b>(v, u))
+        changed.at<std::uint8_t>(v, u) = 255;
+    }
+  }
+  return changed;
+}
+
+TEST(Overlay, DrawsTheBoxWhereTheObjectStands) {
+  // Rear at 18 m, from 0.8 m left to 0.8 m right of the axis, 1.5 m high.
+  const cv::Mat changed = drawn({{20.0, 0.0}, 0.0, {4.0, 1.6, 1.5}, true, ""});
+  int left = kWidth_px, right = 0, top = kHeight_px, bottom = 0;
+  for (int v = 0; v < kHeight_px; ++v) {
+    for (int u = 0; u < kWidth_px; ++u) {
+      if (changed.at<std::uint8_t>(v, u) == 0) continue;
+      left = std::min(left, u), right = std::max(right, u);
+      top = std::min(top, v), bottom = std::max(bottom, v);
+    }
+  }
+  EXPECT_NEAR(left, 609.6 - 721.5 * 0.8 / 18.0, 2.0);
+  EXPECT_NEAR(right, 609.6 + 721.5 * 0.8 / 18.0, 2.0);
+  EXPECT_NEAR(bottom, 172.9 + 721.5 * 1.65 / 18.0, 2.0);
+  EXPECT_NEAR(top, 172.9 + 721.5 * 0.15 / 22.0, 2.0) << "the far upper edge, below the horizon";
+}
+
+TEST(Overlay, CutsAnObjectBesideTheCameraAtTheBorder) {
+  // From 0.6 to 4.6 m ahead, 1.7 to 3.3 m left: the image shows some of its front, all of it on the left and below the horizon.
+  const cv::Mat changed = drawn({{2.6, 2.5}, 0.0, {4.0, 1.6, 1.5}, false, "car 3 m"});
+  EXPECT_GT(cv::countNonZero(changed(cv::Rect(0, 0, 600, kHeight_px))), 50);
+  EXPECT_EQ(cv::countNonZero(changed(cv::Rect(600, 0, kWidth_px - 600, kHeight_px))), 0);
+  EXPECT_EQ(cv::countNonZero(changed(cv::Rect(0, 0, kWidth_px, 165))), 0);
+}
+
+TEST(Overlay, LeavesOutWhatLiesBehind) {
+  EXPECT_EQ(cv::countNonZero(drawn({{-5.0, 0.0}, 0.0, {4.0, 1.6, 1.5}, true, "car"})), 0);
+}
+
+}  // namespace
+}  // namespace plumb
