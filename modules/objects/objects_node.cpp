@@ -72,8 +72,10 @@ const char* ObjectsNode::pair(const ground_plane_t& plane, const ego_motion_t& e
   ground.motion_holds = motion_holds(output_.ego.status);
   ground.reset_counter = output_.ego.reset_counter;
   ground.T_world_cam = output_.ego.T_world_cam;
-  if (waiting_ && frame_.seq == ground.seq && frame_.capture_us == ground.capture_us) {
-    process(&ground);
+  // Planes come in order: one that did not come before this one was lost.
+  while (waiting() && oldest().capture_us <= ground.capture_us) {
+    const bool same = oldest().seq == ground.seq && oldest().capture_us == ground.capture_us;
+    process_oldest(same ? &ground : nullptr);
   }
   return nullptr;
 }
@@ -81,23 +83,30 @@ const char* ObjectsNode::pair(const ground_plane_t& plane, const ego_motion_t& e
 const char* ObjectsNode::take_detections(const detections_t& message) {
   if (const char* why = from_wire(message, &arrived_)) return why;
   if (!calibrated()) return "detections came before a calibration";
-  const bool newer_than_waiting = !waiting_ || arrived_.capture_us > frame_.capture_us;
-  if (!newer_than_waiting || (any_ && arrived_.capture_us <= last_.capture_us)) {
+  if (any_taken_ && arrived_.capture_us <= newest_us_) {
     return "detections of an image that is not newer than the last one";
   }
-  expire();
-  frame_ = arrived_;
-  const Ground* ground = find(frame_.seq, frame_.capture_us);
-  if (ground == nullptr) {
-    waiting_ = true;
-  } else {
-    process(ground);
+  any_taken_ = true;
+  newest_us_ = arrived_.capture_us;
+  if (const Ground* ground = find(arrived_.seq, arrived_.capture_us)) {
+    expire();
+    process(arrived_, ground);
+    return nullptr;
   }
+  if (num_waiting_ == kMaxWaiting) process_oldest(nullptr);
+  waiting_[(first_waiting_ + num_waiting_++) % kMaxWaiting] = arrived_;
   return nullptr;
 }
 
 void ObjectsNode::expire() {
-  if (waiting_) process(nullptr);
+  while (waiting()) process_oldest(nullptr);
+}
+
+void ObjectsNode::process_oldest(const Ground* ground) {
+  const DetectionFrame& frame = oldest();
+  first_waiting_ = (first_waiting_ + 1) % kMaxWaiting;
+  --num_waiting_;
+  process(frame, ground);
 }
 
 const ObjectsNode::Ground* ObjectsNode::find(std::int64_t seq, std::int64_t capture_us) const {
@@ -116,18 +125,17 @@ RoadPlane ObjectsNode::calibrated_plane() const {
   return plane;
 }
 
-void ObjectsNode::process(const Ground* ground) {
-  waiting_ = false;
+void ObjectsNode::process(const DetectionFrame& frame, const Ground* ground) {
   ObjectsInput input;
-  input.frame = &frame_;
+  input.frame = &frame;
   input.plane_measured = ground != nullptr && ground->plane_holds && objects_.plane == "measured";
   input.plane = input.plane_measured ? ground->plane : calibrated_plane();
 
   Ground now;
   if (ground != nullptr) now = *ground;
-  now.seq = frame_.seq;
-  now.capture_us = frame_.capture_us;
-  if (any_) {
+  now.seq = frame.seq;
+  now.capture_us = frame.capture_us;
+  if (any_processed_) {
     input.motion.dt_s =
         std::min(1e-6 * static_cast<double>(now.capture_us - last_.capture_us), kLongestGap_s);
     if (now.motion_holds && last_.motion_holds && now.reset_counter == last_.reset_counter) {
@@ -135,7 +143,7 @@ void ObjectsNode::process(const Ground* ground) {
     }
   }
   last_ = now;
-  any_ = true;
+  any_processed_ = true;
   to_wire(tracker_->update(input), &message_);
   sink_(message_);
 }

@@ -2,8 +2,8 @@
 ///
 /// Pairing  detections are processed with the ground plane and the motion of their own image, however
 ///          late they come, as long as it is among the last kKept. When they come first they wait: for that plane,
-///          for the next detections, or for expire(); in the last two cases the calibrated plane serves
-///          (REASON_CALIBRATED_PLANE).
+///          for a plane of a later image, for expire(), or until kMaxWaiting others came after them; but in the first
+///          case the calibrated plane serves (REASON_CALIBRATED_PLANE).
 /// Order    detections of an image that is not newer than the last processed one are refused.
 /// Start    the first sound calibration makes the tracker; detections before it are refused.
 #pragma once
@@ -26,6 +26,7 @@ class ObjectsNode {
  public:
   using Sink = std::function<void(const objects_t&)>;
   static constexpr std::size_t kKept = 64;  ///< ground planes: six seconds of a 10 Hz camera
+  static constexpr std::size_t kMaxWaiting = 3;
 
   ObjectsNode(const DetectionsConfig& detections, const ObjectsConfig& objects,
               const GroundConfig& ground, Sink sink);
@@ -35,11 +36,11 @@ class ObjectsNode {
   [[nodiscard]] const char* take_plane(const ground_plane_t& message);
   [[nodiscard]] const char* take_ego(const ego_motion_t& message);
   [[nodiscard]] const char* take_detections(const detections_t& message);
-  /// The plane that detections wait for will not come any more.
+  /// The planes that detections wait for will not come any more.
   void expire();
 
   [[nodiscard]] bool calibrated() const { return tracker_.has_value(); }
-  [[nodiscard]] bool waiting() const { return waiting_; }
+  [[nodiscard]] bool waiting() const { return num_waiting_ > 0; }
 
  private:
   /// What is kept of one image.
@@ -56,7 +57,9 @@ class ObjectsNode {
   const char* pair(const ground_plane_t& plane, const ego_motion_t& ego);
   [[nodiscard]] const Ground* find(std::int64_t seq, std::int64_t capture_us) const;
   [[nodiscard]] RoadPlane calibrated_plane() const;
-  void process(const Ground* ground);
+  void process(const DetectionFrame& frame, const Ground* ground);
+  void process_oldest(const Ground* ground);
+  [[nodiscard]] const DetectionFrame& oldest() const { return waiting_[first_waiting_]; }
 
   DetectionsConfig detections_;
   ObjectsConfig objects_;
@@ -71,11 +74,14 @@ class ObjectsNode {
   bool has_plane_ = false;
   bool has_ego_ = false;
   GroundOutput output_;
-  DetectionFrame frame_;  ///< in hand, or waiting
   DetectionFrame arrived_;
-  bool waiting_ = false;
+  std::array<DetectionFrame, kMaxWaiting> waiting_{};  ///< a ring, oldest first
+  std::size_t first_waiting_ = 0;
+  std::size_t num_waiting_ = 0;
+  bool any_taken_ = false;
+  std::int64_t newest_us_ = 0;  ///< of the detections taken last
+  bool any_processed_ = false;
   Ground last_;  ///< of the image processed last
-  bool any_ = false;
   objects_t message_{};
 };
 

@@ -7,6 +7,8 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "modules/detections/detections_wire.hpp"
 #include "modules/objects/objects_node.hpp"
@@ -182,6 +184,12 @@ TEST(ObjectsWire, RefusesEveryBrokenField) {
   }
 }
 
+std::vector<std::uint8_t> bytes_of(const objects_t& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  EXPECT_GT(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+  return bytes;
+}
+
 class ObjectsNodeTest : public testing::Test {
  protected:
   void calibrate() {
@@ -262,6 +270,47 @@ TEST_F(ObjectsNodeTest, DetectionsWaitForTheirPlaneAndGoOnWithoutIt) {
   ASSERT_EQ(published_.size(), 2u);
   EXPECT_EQ(published_[1].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
   EXPECT_TRUE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0]));
+}
+
+TEST_F(ObjectsNodeTest, SlowPlanesGiveWhatPromptOnesGive) {
+  calibrate();
+  for (int seq = 1; seq <= 6; ++seq) {
+    ASSERT_EQ(take_ground(seq), nullptr);
+    ASSERT_EQ(node_.take_detections(sound(seq)), nullptr);
+  }
+  const std::vector<objects_t> prompt = std::exchange(published_, {});
+  node_ = make({});
+  calibrate();
+  // WHEN detections of three images wait before the first plane comes:
+  for (int seq = 1; seq <= 6; ++seq) {
+    ASSERT_EQ(node_.take_detections(sound(seq)), nullptr);
+    if (seq < 3) continue;
+    ASSERT_EQ(take_ground(seq - 2), nullptr);
+  }
+  for (int seq = 5; seq <= 6; ++seq) ASSERT_EQ(take_ground(seq), nullptr);
+  EXPECT_FALSE(node_.waiting());
+  ASSERT_EQ(published_.size(), prompt.size());
+  for (std::size_t i = 0; i < prompt.size(); ++i)
+    EXPECT_EQ(bytes_of(published_[i]), bytes_of(prompt[i]));
+}
+
+TEST_F(ObjectsNodeTest, DetectionsWhosePlaneWasLostGoOnWithoutItInOrder) {
+  calibrate();
+  for (int seq = 1; seq <= 3; ++seq) ASSERT_EQ(node_.take_detections(sound(seq)), nullptr);
+  EXPECT_TRUE(published_.empty());
+  // WHEN there is no room to wait any more, the oldest goes on;
+  ASSERT_EQ(node_.take_detections(sound(4)), nullptr);
+  ASSERT_EQ(published_.size(), 1u);
+  // WHEN the plane of the third comes, that of the second will not.
+  ASSERT_EQ(take_ground(3), nullptr);
+  ASSERT_EQ(published_.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(published_[i].seq, static_cast<int>(i) + 1);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(published_[i].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
+  EXPECT_NE(published_[2].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
+  EXPECT_TRUE(node_.waiting());
+  node_.expire();
+  EXPECT_EQ(published_.back().seq, 4);
 }
 
 TEST_F(ObjectsNodeTest, KeepsToTheCalibratedPlaneWhenAskedTo) {
