@@ -1,4 +1,4 @@
-/// The live chain as real processes: plumb-vo, plumb-ground, plumb-can, fed by the stock lcm-logplayer.
+/// The live chain as real processes: plumb-vo, plumb-ground, plumb-objects, plumb-can, fed by the stock lcm-logplayer.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +21,12 @@ struct LiveResult {
   Messages planes;      ///< bytes on GROUND_PLANE, in order
   Messages egos;
   Messages mounts;
+  Messages objects;
   process_health_t vo;  ///< the newest report
   process_health_t ground;
+  process_health_t tracker;  ///< of plumb-objects
   process_health_t can;
-  int exit_codes[3] = {-1, -1, -1};
+  std::vector<int> exit_codes;
   std::string output;  ///< what the processes printed
 };
 
@@ -34,31 +36,35 @@ class LiveChain {
   LiveChain(const std::string& url, const std::string& trace_path)
       : url_(url), bus_(url, &counters_) {
     start({"plumb-can", "--lcm-url", url, "--trace", trace_path});
+    start({"plumb-objects", "--lcm-url", url});
     start({"plumb-ground", "--lcm-url", url});
     start({"plumb-vo", "--lcm-url", url});
   }
 
   LiveResult play(const std::string& log, const std::string& speed) {
     LiveResult result;
-    result.ready = handle_until(
-        20.0, [this] { return vo_.num_seen > 0 && ground_.num_seen > 0 && can_.num_seen > 0; });
+    result.ready = handle_until(20.0, [this] {
+      return vo_.num_seen > 0 && ground_.num_seen > 0 && tracker_.num_seen > 0 && can_.num_seen > 0;
+    });
     ChildProcess player({"lcm-logplayer", "-l", url_, "-s", speed, log});
     int code = -1;
     handle_until(120.0, [&] { return (code = player.wait(0.0)) >= 0; });
     result.played = code == 0;
     handle_until(30.0, [this] { return monotonic_us() - last_message_us_ > 1'500'000; });
-    for (std::size_t i = 0; i < children_.size(); ++i) children_[i]->signal(SIGTERM);
-    for (std::size_t i = 0; i < children_.size(); ++i) {
-      result.exit_codes[i] = children_[i]->wait(10.0);
-      result.output += children_[i]->output();
+    for (const auto& child : children_) child->signal(SIGTERM);
+    for (const auto& child : children_) {
+      result.exit_codes.push_back(child->wait(10.0));
+      result.output += child->output();
     }
     while (bus_.handle(50)) {
     }
     result.planes = std::move(planes_);
     result.egos = std::move(egos_);
     result.mounts = std::move(mounts_);
+    result.objects = std::move(objects_);
     result.vo = vo_.newest;
     result.ground = ground_.newest;
+    result.tracker = tracker_.newest;
     result.can = can_.newest;
     return result;
   }
@@ -101,14 +107,18 @@ class LiveChain {
   LiveResult::Messages planes_;
   LiveResult::Messages egos_;
   LiveResult::Messages mounts_;
+  LiveResult::Messages objects_;
   RawSubscriber plane_in_{bus_, kGroundPlane, Input::kOccasional,
                           [this](RawSubscriber::Bytes b) { return keep(&planes_, b); }};
   RawSubscriber ego_in_{bus_, kEgoMotion, Input::kOccasional,
                         [this](RawSubscriber::Bytes b) { return keep(&egos_, b); }};
   RawSubscriber mount_in_{bus_, kMount, Input::kOccasional,
                           [this](RawSubscriber::Bytes b) { return keep(&mounts_, b); }};
+  RawSubscriber objects_in_{bus_, kObjects, Input::kOccasional,
+                            [this](RawSubscriber::Bytes b) { return keep(&objects_, b); }};
   HealthOf vo_{bus_, kHealthVo};
   HealthOf ground_{bus_, kHealthGround};
+  HealthOf tracker_{bus_, kHealthObjects};
   HealthOf can_{bus_, kHealthCan};
   std::vector<std::unique_ptr<ChildProcess>> children_;
 };

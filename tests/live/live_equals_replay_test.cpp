@@ -6,7 +6,7 @@
 
 #include "platform/can_trace.hpp"
 #include "tests/live/live_chain.hpp"
-#include "tests/replay/street_log.hpp"
+#include "tests/replay/street_boxes.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/private_network.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -21,8 +21,10 @@ using test::StoredEvent;
 struct Expected {
   std::int64_t num_images = 0;
   std::int64_t num_calibrations = 0;
+  std::int64_t num_detections = 0;
   LiveResult::Messages planes;
   LiveResult::Messages egos;
+  LiveResult::Messages objects;
 };
 
 template <typename Message>
@@ -32,41 +34,48 @@ std::vector<std::uint8_t> bytes_of(const Message& message) {
 
 Expected replay(const std::string& log) {
   Expected expected;
-  Replay replay(PlumbConfig{}, 1, nullptr, [&](const FrameRecord& frame) {
-    EXPECT_EQ(nullptr, frame.refused) << frame.refused;
-    if (frame.plane == nullptr) return;
-    expected.planes.push_back(bytes_of(*frame.plane));
-    expected.egos.push_back(bytes_of(*frame.ego));
-  });
+  Replay replay(
+      PlumbConfig{}, 1, nullptr,
+      [&](const FrameRecord& frame) {
+        EXPECT_EQ(nullptr, frame.refused) << frame.refused;
+        if (frame.plane == nullptr) return;
+        expected.planes.push_back(bytes_of(*frame.plane));
+        expected.egos.push_back(bytes_of(*frame.ego));
+      },
+      [&](const objects_t& objects) { expected.objects.push_back(bytes_of(objects)); });
   LogReader reader(log);
   LogEvent event;
   while (reader.next(&event)) {
     if (event.channel == kCameraCalibration.name) ++expected.num_calibrations;
     if (event.channel == kCamera.name) ++expected.num_images;
+    if (event.channel == kDetections.name) ++expected.num_detections;
     replay.take(event);
   }
   EXPECT_TRUE(reader.problems().empty());
   return expected;
 }
 
-// Per CAN identifier, what was said about each camera frame: without CRC, alive counter, repeats, and bursts that say
+// Per CAN identifier, and per place in a list of objects, what was said about each camera frame: without CRC, alive counter, repeats, and bursts that say
 // "not available" for want of input, which the log's end brings live and not in the replay.
 std::map<std::uint32_t, std::vector<std::string>> said_on_can(const std::string& path) {
   constexpr std::uint32_t kFirstId = 0x3A0;
-  constexpr std::uint32_t kStatusId = 0x3A7;  // counters and times of the process itself
+  constexpr std::uint32_t kStatusId = 0x3A7;  // counters and times of the process itself, until
+  constexpr std::uint32_t kListId = 0x3B0;    // the objects begin
   std::map<std::uint32_t, std::vector<std::string>> said;
   CanTraceReader reader(path);
   CanFrame frame;
   std::int64_t time_us = 0;
   while (reader.next(&time_us, &frame)) {
     EXPECT_GE(frame.id, kFirstId);
-    if (frame.id >= kStatusId) continue;
-    const bool detail = frame.id == 0x3A1 || frame.id == 0x3A3;
-    const int validity = frame.data[1] >> 4;  // the two Detail messages have a 4-bit status there
-    if (detail ? validity == 0xF : (validity & 3) == 3) continue;
+    if (frame.id >= kStatusId && frame.id < kListId) continue;
+    const bool four_bits = frame.id == 0x3A1 || frame.id == 0x3A3 || frame.id == kListId;
+    const int flags =
+        frame.data[1] >> 4;  // validity; a status, a count or an index where it has four bits
+    const bool is_object = frame.id > kListId;
+    if (!is_object && (four_bits ? flags == 0xF : (flags & 3) == 3)) continue;
     std::string text(1, static_cast<char>(frame.data[1] & 0xF0U));
     text.append(reinterpret_cast<const char*>(&frame.data[2]), frame.size - 2U);
-    auto& list = said[frame.id];
+    auto& list = said[is_object ? frame.id << 4U | static_cast<std::uint32_t>(flags) : frame.id];
     if (list.empty() || list.back() != text) list.push_back(text);
   }
   EXPECT_EQ("", reader.error());
@@ -80,8 +89,12 @@ void expect_nothing_lost(const Expected& expected, const LiveResult& live) {
   const auto num_mounts = static_cast<std::int64_t>(live.mounts.size());
   EXPECT_EQ(2 * expected.num_images + num_mounts, live.ground.num_published);
   EXPECT_GE(num_mounts, expected.num_images / 10) << "one a second";
-  EXPECT_EQ(2 * expected.num_images, live.can.num_received);
-  for (const process_health_t* m : {&live.vo, &live.ground, &live.can}) {
+  const std::int64_t num_lists = expected.num_detections;  // one for each image that was searched
+  EXPECT_EQ(2 * expected.num_images + expected.num_calibrations + num_lists,
+            live.tracker.num_received);
+  EXPECT_EQ(num_lists, live.tracker.num_published);
+  EXPECT_EQ(2 * expected.num_images + num_lists, live.can.num_received);
+  for (const process_health_t* m : {&live.vo, &live.ground, &live.tracker, &live.can}) {
     EXPECT_EQ(0, m->num_dropped) << m->process;
     EXPECT_EQ(0, m->num_rejected) << m->process;
     EXPECT_EQ(0, m->num_unsent) << m->process;
@@ -98,13 +111,18 @@ void expect_nothing_lost(const Expected& expected, const LiveResult& live) {
   }
 }
 
-void expect_same_can(const std::string& log, const std::string& live_trace) {
+void expect_same_can(const std::string& log, const std::string& live_trace, bool with_objects) {
   const test::TempFile replay_trace(".can");
   test::ChildProcess program({"plumb-replay", log, "--can", replay_trace.path()});
   ASSERT_EQ(0, program.wait(120.0)) << program.output();
   const auto expected = said_on_can(replay_trace.path());
   const auto live = said_on_can(live_trace);
-  EXPECT_EQ(7U, expected.size()) << "identifiers 3A0 to 3A6";
+  if (with_objects) {
+    for (const std::uint32_t id : {0x3B0U, 0x3B10U, 0x3B20U, 0x3B30U})
+      EXPECT_EQ(1U, expected.count(id)) << std::hex << id << ", the nearest object's";
+  } else {
+    EXPECT_EQ(7U, expected.size()) << "identifiers 3A0 to 3A6";
+  }
   for (const auto& [id, list] : expected) {
     ASSERT_TRUE(live.count(id) == 1) << std::hex << id;
     EXPECT_TRUE(list == live.at(id)) << std::hex << id << std::dec << ": " << live.at(id).size()
@@ -124,7 +142,9 @@ void expect_live_equals_replay(const std::string& log, const std::string& speed)
   EXPECT_EQ(static_cast<std::size_t>(expected.num_images), live.planes.size());
   EXPECT_TRUE(expected.planes == live.planes) << "GROUND_PLANE differs";
   EXPECT_TRUE(expected.egos == live.egos) << "EGO_MOTION differs";
-  expect_same_can(log, trace.path());
+  EXPECT_EQ(static_cast<std::size_t>(expected.num_detections), live.objects.size());
+  EXPECT_TRUE(expected.objects == live.objects) << "OBJECTS differs";
+  expect_same_can(log, trace.path(), expected.num_detections > 0);
 }
 
 // A real drive where there is one.
@@ -137,16 +157,16 @@ bool convert_real(const std::string& sequence, const std::string& log) {
 }
 
 // The rendered street at KITTI's size, each pixel four times: 466 kB an image.
-void write_large_street(const std::string& log) {
+void write_large_street(const std::string& log, bool boxes) {
+  CameraModel camera = test::scene_camera();
+  camera.width_px *= 2;
+  camera.height_px *= 2;
+  camera.fx_px = camera.fy_px *= 2.0;
+  camera.cx_px = 2.0 * camera.cx_px + 0.5;
+  camera.cy_px = 2.0 * camera.cy_px + 0.5;
   std::vector<StoredEvent> events;
   for (const StoredEvent& event : test::street_events()) {
     if (event.channel != kCamera.name) {
-      CameraModel camera = test::scene_camera();
-      camera.width_px *= 2;
-      camera.height_px *= 2;
-      camera.fx_px = camera.fy_px *= 2.0;
-      camera.cx_px = 2.0 * camera.cx_px + 0.5;
-      camera.cy_px = 2.0 * camera.cy_px + 0.5;
       events.push_back(
           test::stored(event.log_us, kCameraCalibration, to_wire(camera, event.log_us)));
       continue;
@@ -161,7 +181,7 @@ void write_large_street(const std::string& log) {
     events.push_back(test::image_event(
         small.seq, {pixels.data(), width, 2 * small.height_px, width}, small.capture_us));
   }
-  test::write_log(log, events);
+  test::write_log(log, boxes ? test::with_boxes(events, camera) : events);
 }
 
 class LiveEqualsReplay : public testing::Test {
@@ -173,13 +193,13 @@ class LiveEqualsReplay : public testing::Test {
   test::TempFile log_{".lcm"};
 };
 
-TEST_F(LiveEqualsReplay, AtRealTime) {
-  if (!convert_real("odometry/sequences/04_000-050", log_.path())) write_large_street(log_.path());
+TEST_F(LiveEqualsReplay, AtRealTimeWithObjects) {
+  if (!convert_real("raw/drive0009_000-050", log_.path())) write_large_street(log_.path(), true);
   expect_live_equals_replay(log_.path(), "1");
 }
 
 TEST_F(LiveEqualsReplay, AtFiveTimesRealTimeWithoutLosingAnything) {
-  if (!convert_real("raw/drive0039_024-400", log_.path())) write_large_street(log_.path());
+  if (!convert_real("raw/drive0039_024-400", log_.path())) write_large_street(log_.path(), false);
   expect_live_equals_replay(log_.path(), "5");
 }
 
