@@ -1,5 +1,6 @@
-/// drive_log LOG            writes an LCM log of GROUND_PLANE and EGO_MOTION: a made-up drive that visits
-///                          every status, both ends of every range, a lost frame and lost halves.
+/// drive_log LOG            writes an LCM log of GROUND_PLANE, EGO_MOTION and OBJECTS: a made-up drive that visits
+///                          every status, both ends of every range, a lost frame, lost halves, and lists of none to
+///                          more objects than CAN carries.
 /// drive_log LOG --trace T  reads any log with these channels and writes the CAN trace of its replay.
 #include <cmath>
 #include <cstdio>
@@ -68,6 +69,39 @@ ground_plane_t plane_of(int frame) {
   return m;
 }
 
+object_t object_of(int frame, int index) {
+  object_t o{};
+  const int phase = frame + 7 * index;
+  o.track_id = 3 * index + frame / 40;
+  o.class_id = static_cast<std::int8_t>(phase % 7);
+  o.status = static_cast<std::int8_t>(phase % 9 == 0   ? object_t::STATUS_NOT_LOCALISED
+                                      : phase % 4 == 0 ? object_t::STATUS_PREDICTED
+                                                       : object_t::STATUS_MEASURED);
+  const double wild = phase % 60 == 59 ? 1e6 : phase % 60 == 58 ? -1e6 : 0.0;
+  o.position_ground_m[0] = wave(phase, 60.0, 55.0, 37.0) + wild;
+  o.position_ground_m[1] = wave(phase, 0.0, 30.0, 23.0) - wild;
+  o.velocity_ground_m_s[0] = phase % 5 == 0 ? kNan : wave(phase, 0.0, 30.0, 41.0) + wild;
+  o.velocity_ground_m_s[1] = phase % 5 == 0 ? kNan : wave(phase, 0.0, 8.0, 19.0) - wild;
+  for (int i = 0; i < 2; ++i) {
+    o.position_cov_m2[i][i] = wave(phase + 3 * i, 4.0, 3.5, 29.0);
+    o.velocity_cov_m2_s2[i][i] = wave(phase + 5 * i, 2.0, 1.9, 17.0);
+  }
+  o.size_m[1] = wave(phase, 1.8, 0.4, 13.0);
+  o.time_to_collision_s = phase % 3 == 0 ? kNan : wave(phase, 10.0, 9.5, 31.0) + std::abs(wild);
+  o.age_s = 0.1 * phase;
+  return o;
+}
+
+objects_t objects_of(int frame) {
+  objects_t m{};
+  m.seq = kFirstSeq + frame;
+  m.utime = frame * kFrameUs;
+  m.num_objects = frame % 12;
+  for (int i = 0; i < m.num_objects; ++i) m.objects.push_back(object_of(frame, i));
+  m.num_refused = frame % 50 == 49 ? 1'000 : 0;
+  return m;
+}
+
 template <typename MessageType>
 void put(LogWriter& log, const Channel& channel, const MessageType& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -81,6 +115,7 @@ void write_log(const char* path) {
     if (frame == 120) continue;  // a camera frame that nobody saw
     if (frame != 140) put(log, kGroundPlane, plane_of(frame));
     if (frame != 160) put(log, kEgoMotion, ego_of(frame));
+    if (frame != 170) put(log, kObjects, objects_of(frame));
   }
   log.close();
 }
@@ -97,6 +132,7 @@ bool write_trace(const char* log_path, const char* trace_path) {
   CanOutput output{CanConfig{}};
   ground_plane_t plane;
   ego_motion_t ego;
+  objects_t objects;
   LogEvent event;
   while (log.next(&event)) {
     if (take(event, kGroundPlane, &plane)) {
@@ -105,6 +141,10 @@ bool write_trace(const char* log_path, const char* trace_path) {
     } else if (take(event, kEgoMotion, &ego)) {
       output.advance(ego.utime, trace);
       output.on_ego_motion(ego, ego.utime);
+    } else if (take(event, kObjects, &objects)) {
+      output.advance(objects.utime, trace);
+      if (!output.on_objects(objects, objects.utime))
+        std::printf("objects of %lld are refused\n", static_cast<long long>(objects.seq));
     }
   }
   output.finish(trace);
