@@ -46,6 +46,16 @@ double time_to_collision(const StateEstimate& estimate, const GroundMotion& moti
   return rate_m_s < -kLeastClosing_m_s ? range_m / -rate_m_s : kNan;
 }
 
+/// Of the position, with what never averages out: the plane's height scales all positions together, and a body's shape
+/// moves it across the line of sight.
+Eigen::Matrix2d position_cov(const StateEstimate& estimate, const TrackView& view) {
+  const Eigen::Vector2d position_m = estimate.x.head<2>();
+  const Eigen::Vector2d across = Eigen::Vector2d(-position_m.y(), position_m.x()).normalized();
+  return estimate.P.topLeftCorner<2, 2>() +
+         view.plane.cov(2, 2) * position_m * position_m.transpose() +
+         view.objects.side_std_m * view.objects.side_std_m * across * across.transpose();
+}
+
 }  // namespace
 
 ObjectTracker::ObjectTracker(const DetectionsConfig& detections, const ObjectsConfig& objects,
@@ -214,9 +224,7 @@ void ObjectTracker::report(const TrackView& view, const ObjectsInput& input) {
           slot.reason == ObjectReason::kNotSeen || slot.reason == ObjectReason::kMisfit;
       object.status = predicted ? ObjectStatus::kPredicted : ObjectStatus::kMeasured;
       object.position_m = estimate.x.head<2>();
-      // The plane's height scales all positions together, frame after frame: it never averages out.
-      object.position_cov_m2 = P.topLeftCorner<2, 2>() + view.plane.cov(2, 2) * object.position_m *
-                                                             object.position_m.transpose();
+      object.position_cov_m2 = position_cov(estimate, view);
       object.velocity_holds = slot.track.over_ground();
       object.velocity_m_s = estimate.x.segment<2>(kVelocityX);
       object.velocity_cov_m2_s2 = P.block<2, 2>(kVelocityX, kVelocityX);

@@ -30,6 +30,7 @@ struct ObjectsConfig {
 
   double contact_inset_m = 0.20;
   double contact_inset_std_m = 0.20;
+  double side_std_m = 0.10;
   double accel_std_m_s2 = 2.5;
   double relative_accel_std_m_s2 = 10.0;
   double start_speed_std_m_s = 10.0;
@@ -94,6 +95,10 @@ struct ObjectsConfig {
     field("objects.contact_inset_m", c.contact_inset_m, 0.0, 1.0,
           "how far inside its outline a vehicle touches the road");
     field("objects.contact_inset_std_m", c.contact_inset_std_m, 0.0, 1.0, "1-sigma of that");
+    field(
+        "objects.side_std_m", c.side_std_m, 0.0, 1.0,
+        "1-sigma by which an object's middle lies beside that of its box: bodies are rounded, and "
+        "the same in all images");
     field("objects.accel_std_m_s2", c.accel_std_m_s2, 0.1, 20.0,
           "1-sigma of an object's acceleration");
     field("objects.relative_accel_std_m_s2", c.relative_accel_std_m_s2, 0.1, 50.0,

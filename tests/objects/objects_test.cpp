@@ -114,6 +114,19 @@ TEST(Objects, PlacesACarWithItsSizeAndDeviation) {
   EXPECT_LT(std::sqrt(car.position_cov_m2(0, 0)), 2.0);
 }
 
+TEST(Objects, LongTracksStillDoubtThePlaceAcrossTheLineOfSight) {
+  Drive drive(8.0);
+  drive.add(car_at(45.0, 6.0, 0.0), 5);
+  const ObjectOutput* car = nullptr;
+  for (int k = 0; k < 40; ++k) car = &drive.step().objects[0];
+  ASSERT_EQ(car->status, ObjectStatus::kMeasured);
+  const Eigen::Vector2d across =
+      Eigen::Vector2d(-car->position_m.y(), car->position_m.x()).normalized();
+  const double std_m = std::sqrt(across.dot(car->position_cov_m2 * across));
+  EXPECT_GT(std_m, ObjectsConfig{}.side_std_m);
+  EXPECT_LT(std_m, 0.3);
+}
+
 TEST(Objects, VelocityIsOverGroundWhileTheCameraDrivesAndTurns) {
   Drive drive(12.0, 0.15);
   drive.add(moving(car_at(25.0, 0.0, 0.0), 14.0, 0.0), 1);
