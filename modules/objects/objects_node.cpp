@@ -62,6 +62,8 @@ const char* ObjectsNode::take_ego(const ego_motion_t& message) {
 const char* ObjectsNode::pair(const ground_plane_t& plane, const ego_motion_t& ego) {
   has_plane_ = has_ego_ = false;
   if (const char* why = from_wire(plane, ego, &output_)) return why;
+  if (output_.capture_us < newest_plane_us_) begin_anew();
+  newest_plane_us_ = output_.capture_us;
   Ground& ground = kept_[next_];
   next_ = (next_ + 1) % kKept;
   ground.seq = output_.seq;
@@ -96,6 +98,13 @@ const char* ObjectsNode::take_detections(const detections_t& message) {
   if (num_waiting_ == kMaxWaiting) process_oldest(nullptr);
   waiting_[(first_waiting_ + num_waiting_++) % kMaxWaiting] = arrived_;
   return nullptr;
+}
+
+void ObjectsNode::begin_anew() {
+  kept_.fill({});
+  num_waiting_ = 0;
+  any_taken_ = any_processed_ = false;
+  tracker_.emplace(detections_, objects_, camera_);
 }
 
 void ObjectsNode::expire() {

@@ -5,6 +5,7 @@
 ///          for a plane of a later image, for expire(), or until kMaxWaiting others came after them; but in the first
 ///          case the calibrated plane serves (REASON_CALIBRATED_PLANE).
 /// Order    detections of an image that is not newer than the last processed one are refused.
+/// Restart  a plane older than the one before is of a source that began anew; so does the tracker.
 /// Start    the first sound calibration makes the tracker; detections before it are refused.
 #pragma once
 
@@ -59,6 +60,7 @@ class ObjectsNode {
   [[nodiscard]] RoadPlane calibrated_plane() const;
   void process(const DetectionFrame& frame, const Ground* ground);
   void process_oldest(const Ground* ground);
+  void begin_anew();
   [[nodiscard]] const DetectionFrame& oldest() const { return waiting_[first_waiting_]; }
 
   DetectionsConfig detections_;
@@ -78,6 +80,7 @@ class ObjectsNode {
   std::array<DetectionFrame, kMaxWaiting> waiting_{};  ///< a ring, oldest first
   std::size_t first_waiting_ = 0;
   std::size_t num_waiting_ = 0;
+  std::int64_t newest_plane_us_ = 0;
   bool any_taken_ = false;
   std::int64_t newest_us_ = 0;  ///< of the detections taken last
   bool any_processed_ = false;

@@ -325,6 +325,18 @@ TEST_F(ObjectsNodeTest, KeepsToTheCalibratedPlaneWhenAskedTo) {
   EXPECT_FALSE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0])) << "motion is used";
 }
 
+TEST_F(ObjectsNodeTest, BeginsAnewWithItsSource) {
+  calibrate();
+  for (int seq = 5; seq <= 7; ++seq) {
+    ASSERT_EQ(take_ground(seq), nullptr);
+    ASSERT_EQ(node_.take_detections(sound(seq)), nullptr);
+  }
+  ASSERT_EQ(take_ground(1), nullptr);
+  ASSERT_EQ(node_.take_detections(sound(1)), nullptr);
+  ASSERT_EQ(published_.size(), 4U);
+  EXPECT_EQ(published_.back().objects[0].age_s, 0.0) << "no track of the old time";
+}
+
 TEST_F(ObjectsNodeTest, RefusesWhatComesTooEarlyTwiceOrOutOfOrder) {
   EXPECT_STREQ(node_.take_detections(sound(1)), "detections came before a calibration");
   calibrate();
