@@ -66,11 +66,15 @@ class GroundProcess {
 
   void watch_mount(const plumb::GroundOutput& output) {
     const bool alarmed = mount_node_.alarm() != nullptr;
-    if (const plumb::mount_t* message = mount_node_.update(output)) mount_.publish(*message);
+    const plumb::mount_t* message = mount_node_.update(output);
+    if (message == nullptr) return;
+    mount_.publish(*message);
     const char* alarm = mount_node_.alarm();
-    if ((alarm != nullptr) == alarmed) return;
-    if (alarmed) return process_.health().clear_condition();
-    process_.health().set_condition(plumb::HealthState::kDegraded, alarm);
+    if (alarm != nullptr) {
+      process_.health().set_condition(plumb::HealthState::kDegraded, alarm);
+    } else if (alarmed) {
+      process_.health().clear_condition();
+    }
   }
 
   plumb::Process& process_;

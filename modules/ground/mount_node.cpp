@@ -26,9 +26,12 @@ const mount_t* MountNode::update(const GroundOutput& ground) {
   const MountStatus before = check_.report().status;
   const MountReport& report = check_.update(ground);
   if (!had_reference && report.reference) save();
-  if (report.status != before) write_alarm();
-  if (ground.capture_us - published_us_ < kPeriod_us && report.status == before) return nullptr;
+  const bool stepped_back = ground.capture_us < published_us_;
+  const bool due = stepped_back || ground.capture_us - published_us_ >= kPeriod_us;
+  if (!due && report.status == before) return nullptr;
   published_us_ = ground.capture_us;
+  write_alarm();
+  if (report.status != before && alarm() != nullptr) log_line("%s", alarm_);
   to_wire(report, ground.capture_us, &message_);
   return &message_;
 }
@@ -52,7 +55,6 @@ void MountNode::write_alarm() {
   std::snprintf(alarm_, sizeof alarm_,
                 "the camera has moved on its mount: pitch %+.1f, roll %+.1f, yaw %+.1f deg",
                 degrees(off_rad.x()), degrees(off_rad.y()), degrees(off_rad.z()));
-  log_line("%s", alarm_);
 }
 
 }  // namespace plumb

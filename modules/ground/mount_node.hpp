@@ -21,7 +21,8 @@ class MountNode {
 
   /// One result of the chain. The message to publish, once a second and when the status changes; else null.
   const mount_t* update(const GroundOutput& ground);
-  /// Why the process is degraded; null while the camera has not moved.
+  [[nodiscard]] const MountReport& report() const { return check_.report(); }
+  /// Why the process is degraded, by the angles of the newest message; null while the camera has not moved.
   [[nodiscard]] const char* alarm() const;
 
  private:

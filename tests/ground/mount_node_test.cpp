@@ -43,13 +43,24 @@ TEST_F(MountNodeTest, SpeaksOnceASecondAndAtOnceWhenTheStatusChanges) {
   drive(&node, 115.0, 0.5);
   EXPECT_EQ(last_.status, mount_t::STATUS_STEADY);
   EXPECT_EQ(node.alarm(), nullptr);
-  drive(&node, 250.0, 3.5);
+  drive(&node, 90.0, 3.5);
   EXPECT_EQ(last_.status, mount_t::STATUS_MOVED);
   EXPECT_STREQ(node.alarm(),
                "the camera has moved on its mount: pitch +0.0, roll +0.0, yaw +1.3 deg")
       << "the newest four stretches: half of them are old when a degree is passed";
+  drive(&node, 160.0, 3.5);
+  EXPECT_STREQ(node.alarm(),
+               "the camera has moved on its mount: pitch +0.0, roll +0.0, yaw +3.0 deg")
+      << "follows what is measured";
   drive(&node, 250.0, 0.5);
   EXPECT_EQ(node.alarm(), nullptr);
+}
+
+TEST_F(MountNodeTest, AClockThatStepsBackDoesNotSilenceIt) {
+  MountNode node(config_);
+  drive(&node, 50.0, 0.5);
+  now_us_ -= 900'000'000;
+  EXPECT_EQ(drive(&node, 50.0, 0.5), 5);
 }
 
 TEST_F(MountNodeTest, TheReferenceSurvivesARestart) {
