@@ -67,6 +67,13 @@ struct CanValues {
   double version_patch = kNotAvailable;
   double uptime_s = kNotAvailable;
 
+  double mount_status = kNotAvailable;  ///< CanMountStatus
+  double mount_reason = kNotAvailable;
+  double mount_progress = kNotAvailable;   ///< [0, 1] of the way to a reference
+  double mount_pitch_rad = kNotAvailable;  ///< off the reference; signs as pitch_rad, roll_rad
+  double mount_roll_rad = kNotAvailable;
+  double mount_yaw_rad = kNotAvailable;  ///< left positive
+
   // Of the list of objects, and of one object in it.
   double object_frame_counter = 0.0;  ///< seq modulo 256 of the image searched; always a number
   double num_objects = kNotAvailable;
@@ -112,22 +119,25 @@ struct Signal {
   return static_cast<double>(max_raw(signal)) * signal.factor + signal.offset;
 }
 
+/// What makes a message leave between its cycles.
+enum class CanTrigger : std::uint8_t { kNone, kCameraFrame, kMountMessage };
+
 /// One row of the send table.
 struct Message {
   const char* name = "";
   std::uint32_t id = 0;
   std::uint16_t data_id = 0;  ///< AUTOSAR E2E
   int cycle_ms = 0;           ///< 0: sent only with what it belongs to
-  bool per_frame = false;     ///< also sent between its cycles for every new camera frame
+  CanTrigger trigger = CanTrigger::kNone;
   std::span<const Signal> signals;
 };
 
 inline constexpr std::size_t kMessageBytes = 8;
-inline constexpr std::size_t kNumMessages = 9;
+inline constexpr std::size_t kNumMessages = 10;
 inline constexpr std::size_t kNumObjectMessages = 4;
-inline constexpr int kDatabaseVersion = 2;  ///< +1 with every change of the DBC's layout
+inline constexpr int kDatabaseVersion = 3;  ///< +1 with every change of the DBC's layout
 
-/// Every message of ego motion and ground plane, in the order in which a burst sends them.
+/// Every message of ego motion, ground plane and mount, in the order in which a burst sends them.
 [[nodiscard]] const std::array<Message, kNumMessages>& messages();
 /// The list of objects, then what is sent for each object: position, motion, state.
 [[nodiscard]] const std::array<Message, kNumObjectMessages>& object_messages();

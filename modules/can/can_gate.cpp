@@ -5,6 +5,7 @@
 
 #include "modules/can/can_e2e.hpp"
 #include "modules/can/can_time.hpp"
+#include "platform/channels.hpp"
 
 namespace plumb {
 namespace {
@@ -79,6 +80,15 @@ void put(const CanPlane& plane, CanValues* v) {
   v->height_std_m = plane.height_std_m;
 }
 
+void put(const CanMount& mount, CanValues* v) {
+  v->mount_status = static_cast<double>(mount.status);
+  v->mount_reason = mount.reason;
+  v->mount_progress = mount.progress;
+  v->mount_pitch_rad = mount.pitch_rad;
+  v->mount_roll_rad = mount.roll_rad;
+  v->mount_yaw_rad = mount.yaw_rad;
+}
+
 CanMode mode_of(const CanValues& v, bool fresh) {
   if (!fresh) return CanMode::kNoInput;
   const double valid = number(CanValidity::kValid);
@@ -121,6 +131,10 @@ void CanGate::on_ego_motion(const CanEgo& ego, std::int64_t now_us) {
   entry->ego = ego;
   entry->has_ego = true;
   settle(*entry);
+}
+
+void CanGate::on_mount(const CanMount& mount, std::int64_t now_us) {
+  (void)pending_mounts_.push({now_us, mount});
 }
 
 /// After a half was put into `entry`.
@@ -166,12 +180,21 @@ bool CanGate::next(std::int64_t now_us) {
   return true;
 }
 
+bool CanGate::next_mount() {
+  if (pending_mounts_.empty()) return false;
+  mount_ = pending_mounts_.front();
+  has_mount_ = true;
+  pending_mounts_.drop_front();
+  return true;
+}
+
 CanValues CanGate::compose(std::int64_t now_us) const {
   CanValues v;  // all not available
   v.frame_counter = has_current_ ? static_cast<double>(current_.seq & 0xFF) : 0.0;
   const bool fresh = has_current_ && age_us(now_us, current_.received_us) <= stale_us_;
   if (fresh && current_.has_ego) put(current_.ego, &v);
   if (fresh && current_.has_plane) put(current_.plane, &v);
+  if (has_mount_ && age_us(now_us, mount_.received_us) <= kMount.stale_us) put(mount_.mount, &v);
 
   v.mode = static_cast<double>(mode_of(v, fresh));
   v.num_missed = count(counters_.num_missed);
@@ -190,11 +213,14 @@ void CanGate::tick(std::int64_t now_us, CanSink& sink) {
   if (!is_started_) start_us_ = now_us;
   is_started_ = true;
   const bool is_new = next(now_us);
+  const bool is_mount_new = next_mount();
   const CanValues values = compose(now_us);
   for (std::size_t i = 0; i < kNumMessages; ++i) {
     const Message& message = messages()[i];
     ms_since_sent_[i] += kTickMs;
-    if (ms_since_sent_[i] < message.cycle_ms && !(is_new && message.per_frame)) continue;
+    const bool is_triggered = (is_new && message.trigger == CanTrigger::kCameraFrame) ||
+                              (is_mount_new && message.trigger == CanTrigger::kMountMessage);
+    if (ms_since_sent_[i] < message.cycle_ms && !is_triggered) continue;
     sink.send(now_us, encode(message, values, alive_[i]));
     alive_[i] = static_cast<std::uint8_t>((alive_[i] + 1U) % kE2eCounterModulo);
     ms_since_sent_[i] = 0;

@@ -3,6 +3,7 @@
 ///
 /// Pairing  the ground plane and the ego motion of one `seq` become one entry of a queue; each tick
 ///          takes at most one entry, whose messages leave in one burst, and repeats what is cyclic.
+/// Mount    belongs to no frame: each is sent once, at the next tick, and repeated by its cycle.
 /// Time     [us] of one steady clock of the caller's choice; the log's own clock in a replay.
 /// Units    SI, signs per ISO 8855.
 /// Memory   kMaxPending entries in place; when full the oldest is dropped and counted.
@@ -85,6 +86,24 @@ struct CanPlane {
   int cues_used = 0;  ///< 1 dense + 2 points + 4 objects
 };
 
+/// Same numbers as mount_t.STATUS_* (asserted in can_wire.cpp).
+enum class CanMountStatus : std::int8_t {
+  kCollecting = 0,
+  kUnsteady = 1,
+  kSteady = 2,
+  kMoved = 3,
+};
+
+/// How the camera sits on its vehicle. The angles are off the reference, in kSteady and kMoved.
+struct CanMount {
+  CanMountStatus status = CanMountStatus::kCollecting;
+  int reason = 0;  ///< mount_t.REASON_*
+  double progress = kNotAvailable;
+  double pitch_rad = kNotAvailable;
+  double roll_rad = kNotAvailable;
+  double yaw_rad = kNotAvailable;
+};
+
 struct CanCounters {
   std::int64_t num_frames = 0;      ///< entries whose burst was sent
   std::int64_t num_missed = 0;      ///< camera frames missing by seq
@@ -100,11 +119,14 @@ class CanGate {
   static constexpr std::int64_t kTickUs = 10'000;
   static constexpr int kTickMs = static_cast<int>(kTickUs / 1'000);
   static constexpr std::size_t kMaxPending = 32;  ///< sent in 0.32 s
+  /// When full the oldest goes: the newest says it all.
+  static constexpr std::size_t kMaxPendingMounts = 4;
 
   explicit CanGate(const CanConfig& config);
 
   void on_ground_plane(const CanPlane& plane, std::int64_t now_us);
   void on_ego_motion(const CanEgo& ego, std::int64_t now_us);
+  void on_mount(const CanMount& mount, std::int64_t now_us);
 
   /// Sends what is due. Call every kTickUs; a late call is not made up for.
   void tick(std::int64_t now_us, CanSink& sink);
@@ -113,8 +135,10 @@ class CanGate {
   void report(std::int64_t num_rejected, std::int64_t num_unsent);
 
   [[nodiscard]] const CanCounters& counters() const { return counters_; }
-  /// No frame waits to be sent.
-  [[nodiscard]] bool idle() const { return pending_.empty() && !is_open_ && !is_changed_; }
+  /// Nothing waits to be sent.
+  [[nodiscard]] bool idle() const {
+    return pending_.empty() && !is_open_ && !is_changed_ && pending_mounts_.empty();
+  }
 
  private:
   struct Entry {
@@ -126,11 +150,17 @@ class CanGate {
     CanEgo ego;
   };
 
+  struct MountEntry {
+    std::int64_t received_us = 0;
+    CanMount mount;
+  };
+
   Entry* entry_of(std::int64_t seq, std::int64_t now_us);
   Entry* newest_closed(std::int64_t seq);
   void settle(const Entry& entry);
   void close();
   bool next(std::int64_t now_us);
+  bool next_mount();
   [[nodiscard]] CanValues compose(std::int64_t now_us) const;
 
   std::int64_t stale_us_;
@@ -141,6 +171,9 @@ class CanGate {
   Entry current_;  ///< what is repeated
   bool has_current_ = false;
   bool is_changed_ = false;  ///< a late half joined `current_`
+  FixedQueue<MountEntry, kMaxPendingMounts> pending_mounts_;
+  MountEntry mount_;  ///< what is repeated
+  bool has_mount_ = false;
   LossCounter order_;
   std::int64_t start_us_ = 0;
   bool is_started_ = false;

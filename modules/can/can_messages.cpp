@@ -103,6 +103,17 @@ constexpr Signal kInfo[] = {
     {"Info_Uptime", 48, 16, 1.0, 0.0, &V::uptime_s},
 };
 
+constexpr Signal kMountState[] = {
+    {"Mount_Crc", 0, 8, 1.0, 0.0, nullptr, false},
+    {"Mount_AliveCtr", 8, 4, 1.0, 0.0, nullptr},
+    {"Mount_Status", 12, 4, 1.0, 0.0, &V::mount_status},
+    {"Mount_Reason", 16, 4, 1.0, 0.0, &V::mount_reason},
+    {"Mount_Progress", 20, 8, 0.005, 0.0, &V::mount_progress},
+    {"Mount_PitchChange", 28, 12, 0.0002, -0.4096, &V::mount_pitch_rad},
+    {"Mount_RollChange", 40, 12, 0.0002, -0.4096, &V::mount_roll_rad},
+    {"Mount_YawChange", 52, 12, 0.0002, -0.4096, &V::mount_yaw_rad},
+};
+
 constexpr Signal kObjectList[] = {
     {"ObjList_Crc", 0, 8, 1.0, 0.0, nullptr, false},
     {"ObjList_AliveCtr", 8, 4, 1.0, 0.0, nullptr},
@@ -146,23 +157,27 @@ constexpr Signal kObjectState[] = {
     {"ObjState_Width", 57, 7, 0.05, 0.0, &V::object_width_m},
 };
 
+constexpr CanTrigger kCyclic = CanTrigger::kNone;
+constexpr CanTrigger kPerFrame = CanTrigger::kCameraFrame;
+
 constexpr std::array<Message, kNumMessages> kMessages = {{
-    {"PLB_EgoMotion", 0x3A0, 0x3A01, 10, false, kEgoMotion},
-    {"PLB_EgoMotionDetail", 0x3A1, 0x3A02, 10, false, kEgoMotionDetail},
-    {"PLB_GroundPlane", 0x3A2, 0x3A03, 10, false, kGroundPlane},
-    {"PLB_GroundPlaneDetail", 0x3A3, 0x3A04, 10, false, kGroundPlaneDetail},
-    {"PLB_OdometryX", 0x3A4, 0x3A05, 20, true, kOdometryX},
-    {"PLB_OdometryY", 0x3A5, 0x3A06, 20, true, kOdometryY},
-    {"PLB_OdometryDistance", 0x3A6, 0x3A07, 20, true, kOdometryDistance},
-    {"PLB_Status", 0x3A7, 0x3A08, 100, false, kStatus},
-    {"PLB_Info", 0x3A8, 0x3A09, 1000, false, kInfo},
+    {"PLB_EgoMotion", 0x3A0, 0x3A01, 10, kCyclic, kEgoMotion},
+    {"PLB_EgoMotionDetail", 0x3A1, 0x3A02, 10, kCyclic, kEgoMotionDetail},
+    {"PLB_GroundPlane", 0x3A2, 0x3A03, 10, kCyclic, kGroundPlane},
+    {"PLB_GroundPlaneDetail", 0x3A3, 0x3A04, 10, kCyclic, kGroundPlaneDetail},
+    {"PLB_OdometryX", 0x3A4, 0x3A05, 20, kPerFrame, kOdometryX},
+    {"PLB_OdometryY", 0x3A5, 0x3A06, 20, kPerFrame, kOdometryY},
+    {"PLB_OdometryDistance", 0x3A6, 0x3A07, 20, kPerFrame, kOdometryDistance},
+    {"PLB_Status", 0x3A7, 0x3A08, 100, kCyclic, kStatus},
+    {"PLB_Info", 0x3A8, 0x3A09, 1000, kCyclic, kInfo},
+    {"PLB_Mount", 0x3A9, 0x3A0E, 1000, CanTrigger::kMountMessage, kMountState},
 }};
 
 constexpr std::array<Message, kNumObjectMessages> kObjectMessages = {{
-    {"PLB_ObjectList", 0x3B0, 0x3A0A, 100, true, kObjectList},
-    {"PLB_ObjectPosition", 0x3B1, 0x3A0B, 0, true, kObjectPosition},
-    {"PLB_ObjectMotion", 0x3B2, 0x3A0C, 0, true, kObjectMotion},
-    {"PLB_ObjectState", 0x3B3, 0x3A0D, 0, true, kObjectState},
+    {"PLB_ObjectList", 0x3B0, 0x3A0A, 100, kPerFrame, kObjectList},
+    {"PLB_ObjectPosition", 0x3B1, 0x3A0B, 0, kPerFrame, kObjectPosition},
+    {"PLB_ObjectMotion", 0x3B2, 0x3A0C, 0, kPerFrame, kObjectMotion},
+    {"PLB_ObjectState", 0x3B3, 0x3A0D, 0, kPerFrame, kObjectState},
 }};
 
 }  // namespace

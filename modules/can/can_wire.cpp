@@ -25,6 +25,11 @@ static_assert(same(CanPlaneStatus::kInitializing, ground_plane_t::STATUS_INITIAL
 static_assert(same(CanPlaneStatus::kHeld, ground_plane_t::STATUS_HELD));
 static_assert(same(CanPlaneStatus::kInvalid, ground_plane_t::STATUS_INVALID));
 
+static_assert(static_cast<int>(CanMountStatus::kCollecting) == mount_t::STATUS_COLLECTING);
+static_assert(static_cast<int>(CanMountStatus::kUnsteady) == mount_t::STATUS_UNSTEADY);
+static_assert(static_cast<int>(CanMountStatus::kSteady) == mount_t::STATUS_STEADY);
+static_assert(static_cast<int>(CanMountStatus::kMoved) == mount_t::STATUS_MOVED);
+
 static_assert(static_cast<int>(CanObjectStatus::kMeasured) == object_t::STATUS_MEASURED);
 static_assert(static_cast<int>(CanObjectStatus::kPredicted) == object_t::STATUS_PREDICTED);
 static_assert(static_cast<int>(CanObjectStatus::kNotLocalised) == object_t::STATUS_NOT_LOCALISED);
@@ -33,6 +38,7 @@ static_assert(static_cast<int>(CanObjectStatus::kNotLocalised) == object_t::STAT
 constexpr int kMaxReason = 14;
 static_assert(vo_motion_t::REASON_RESTARTED <= kMaxReason);
 static_assert(ground_plane_t::REASON_NO_CALIBRATION <= kMaxReason);
+static_assert(mount_t::REASON_TURNING <= kMaxReason);
 
 bool is_deviation(double value) { return std::isfinite(value) && value >= 0.0; }
 
@@ -182,6 +188,29 @@ bool from_wire(const ground_plane_t& message, CanPlane* plane) {
   return true;
 }
 
+bool from_wire(const mount_t& message, CanMount* mount) {
+  if (message.status < mount_t::STATUS_COLLECTING || message.status > mount_t::STATUS_MOVED ||
+      message.reason < 0 || message.reason > kMaxReason ||
+      !(message.progress >= 0.0 && message.progress <= 1.0)) {
+    return false;
+  }
+  *mount = CanMount{};
+  mount->status = static_cast<CanMountStatus>(message.status);
+  mount->reason = static_cast<int>(message.reason);
+  mount->progress = message.progress;
+  const bool moved = mount->status == CanMountStatus::kMoved;
+  if (!moved && mount->status != CanMountStatus::kSteady) return true;
+  double* const angles[] = {&mount->pitch_rad, &mount->roll_rad, &mount->yaw_rad};
+  for (int i = 0; i < 3; ++i) {
+    const double recent_rad = message.recent_rad[i];
+    if (!std::isfinite(message.reference_rad[i]) || std::isinf(recent_rad)) return false;
+    // A reference of an earlier run is steady before this one's first stretch.
+    if (std::isnan(recent_rad) && moved) return false;
+    *angles[i] = recent_rad - message.reference_rad[i];
+  }
+  return true;
+}
+
 bool from_wire(const objects_t& message, CanObjects* objects) {
   if (message.seq < 0 || message.num_objects < 0 || message.num_refused < 0 ||
       message.num_objects > objects_t::MAX_OBJECTS ||
@@ -209,6 +238,15 @@ bool CanOutput::on_ground_plane(const ground_plane_t& message, std::int64_t now_
     return false;
   }
   gate_.on_ground_plane(plane_, now_us);
+  return true;
+}
+
+bool CanOutput::on_mount(const mount_t& message, std::int64_t now_us) {
+  if (!from_wire(message, &mount_)) {
+    ++num_rejected_;
+    return false;
+  }
+  gate_.on_mount(mount_, now_us);
   return true;
 }
 

@@ -1,4 +1,4 @@
-/// GROUND_PLANE, EGO_MOTION and OBJECTS -> CAN frames: what plumb-can runs live and plumb-replay runs on a
+/// GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS -> CAN frames: what plumb-can runs live and plumb-replay runs on a
 /// log.
 ///
 /// The input is the LCM message, also in a replay: quaternions and matrices round differently, and
@@ -16,6 +16,7 @@
 #include "modules/can/can_object_gate.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
+#include "plumb/mount_t.hpp"
 #include "plumb/objects_t.hpp"
 
 namespace plumb {
@@ -24,6 +25,7 @@ namespace plumb {
 /// status says holds is not a number or has a negative variance.
 [[nodiscard]] bool from_wire(const ego_motion_t& message, CanEgo* ego);
 [[nodiscard]] bool from_wire(const ground_plane_t& message, CanPlane* plane);
+[[nodiscard]] bool from_wire(const mount_t& message, CanMount* mount);
 /// The nearest kMaxCanObjects that have a place on the road, nearest first. One broken object breaks the message.
 [[nodiscard]] bool from_wire(const objects_t& message, CanObjects* objects);
 
@@ -34,6 +36,7 @@ class CanOutput {
   /// False when the message was rejected (and counted).
   bool on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
   bool on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
+  bool on_mount(const mount_t& message, std::int64_t now_us);
   bool on_objects(const objects_t& message, std::int64_t now_us);
 
   /// One tick of the caller's timer.
@@ -65,6 +68,7 @@ class CanOutput {
   CanObjectGate object_gate_;
   CanEgo ego_;
   CanPlane plane_;
+  CanMount mount_;
   CanObjects objects_;
   std::int64_t num_rejected_ = 0;
   std::int64_t num_undecoded_ = 0;

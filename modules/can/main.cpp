@@ -1,4 +1,4 @@
-/// GROUND_PLANE, EGO_MOTION, OBJECTS -> can -> CAN interface, trace file
+/// GROUND_PLANE, EGO_MOTION, MOUNT, OBJECTS -> can -> CAN interface, trace file
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <stdexcept>
@@ -58,6 +58,10 @@ class CanProcess {
              [this](const ego_motion_t& message) {
                return output_.on_ego_motion(message, monotonic_us()) ? nullptr : "ego motion";
              }),
+        mount_(process.bus(), kMount, Input::kOccasional,
+               [this](const mount_t& message) {
+                 return output_.on_mount(message, monotonic_us()) ? nullptr : "mount";
+               }),
         objects_(process.bus(), kObjects, Input::kOccasional, [this](const objects_t& message) {
           return output_.on_objects(message, monotonic_us()) ? nullptr : "objects";
         }) {
@@ -93,6 +97,7 @@ class CanProcess {
   CanOutput output_;
   Subscriber<ground_plane_t> plane_;
   Subscriber<ego_motion_t> ego_;
+  Subscriber<mount_t> mount_;
   Subscriber<objects_t> objects_;
   std::int64_t last_tick_us_ = 0;
   std::string told_;
@@ -103,7 +108,7 @@ class CanProcess {
 
 int main(int argc, char** argv) {
   plumb::Process process(
-      {"can", "Ego motion, ground plane and objects onto a CAN bus, as plumbline.dbc says.",
+      {"can", "Ego motion, ground plane, mount and objects onto a CAN bus, as plumbline.dbc says.",
        plumb::kHealthCan});
   std::string interface, path;
   process.declare_options([&](CLI::App& app) {

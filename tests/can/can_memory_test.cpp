@@ -28,6 +28,7 @@ TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
   objects.objects.resize(20);
   for (int i = 0; i < 20; ++i)
     objects.objects[static_cast<std::size_t>(i)].position_ground_m[0] = 50.0 - i;
+  mount_t mount{};
   const std::int64_t before = test::g_num_mallocs;
   for (int i = 0; i < 10'000; ++i) {
     plane.seq = ego.seq = i % 50 == 0 ? i + 7 : i;
@@ -36,6 +37,8 @@ TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
     output.advance(i * 20'000, sink);
     output.on_ground_plane(plane, i * 20'000);
     output.on_ego_motion(ego, i * 20'000);
+    mount.status = static_cast<std::int8_t>(i / 10 % 5);  // 4 is rejected
+    output.on_mount(mount, i * 20'000);
     objects.seq = i;
     EXPECT_TRUE(output.on_objects(objects, i * 20'000));
   }

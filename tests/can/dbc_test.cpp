@@ -9,6 +9,7 @@
 #include "plumb/detection_t.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
+#include "plumb/mount_t.hpp"
 #include "plumb/object_t.hpp"
 #include "plumb/vo_motion_t.hpp"
 #include "tests/can/dbc.hpp"
@@ -97,7 +98,9 @@ TEST_F(DbcFile, StatesCyclesSendTypesAndDataIds) {
   for (const Message& message : all_messages()) {
     auto& said = dbc_.messages[message.id].attributes;
     EXPECT_EQ(said["GenMsgCycleTime"], std::to_string(message.cycle_ms));
-    EXPECT_EQ(said["GenMsgSendType"], message.cycle_ms == 0 ? "2" : message.per_frame ? "1" : "0");
+    EXPECT_EQ(said["GenMsgSendType"], message.cycle_ms == 0                  ? "2"
+                                      : message.trigger != CanTrigger::kNone ? "1"
+                                                                             : "0");
     EXPECT_EQ(said["E2EDataID"], std::to_string(message.data_id));
     EXPECT_EQ(said["E2EProfile"], "PROFILE_11A");
     EXPECT_EQ(said["VFrameFormat"], "0");
@@ -113,7 +116,8 @@ TEST_F(DbcFile, EverySignalSaysWhatItIs) {
     const std::string name = ours.name;
     const bool is_axis = said.unit == "rad/s" || said.unit == "m/s^2" || said.unit == "m/s" ||
                          name.find("Pitch") != std::string::npos ||
-                         name.find("Roll") != std::string::npos;
+                         name.find("Roll") != std::string::npos ||
+                         name.find("YawChange") != std::string::npos;
     if (is_axis && name.find("Std") == std::string::npos) {
       EXPECT_NE(said.comment.find("ISO 8855"), std::string::npos);
       EXPECT_NE(said.comment.find("positive"), std::string::npos);
@@ -156,6 +160,20 @@ TEST_F(DbcFile, ObjectsHaveTheNumbersOfTheMessages) {
   EXPECT_EQ(status.at(object_t::STATUS_MEASURED), "MEASURED");
   EXPECT_EQ(status.at(object_t::STATUS_PREDICTED), "PREDICTED");
   EXPECT_EQ(status.at(object_t::STATUS_NOT_LOCALISED), "NOT_LOCALISED");
+}
+
+TEST_F(DbcFile, TheMountHasTheNumbersOfTheMessage) {
+  const auto& status = values("PLB_Mount", "Mount_Status");
+  EXPECT_EQ(status.at(mount_t::STATUS_COLLECTING), "COLLECTING");
+  EXPECT_EQ(status.at(mount_t::STATUS_UNSTEADY), "UNSTEADY");
+  EXPECT_EQ(status.at(mount_t::STATUS_STEADY), "STEADY");
+  EXPECT_EQ(status.at(mount_t::STATUS_MOVED), "MOVED");
+  const auto& reason = values("PLB_Mount", "Mount_Reason");
+  EXPECT_EQ(reason.at(mount_t::REASON_NONE), "NONE");
+  EXPECT_EQ(reason.at(mount_t::REASON_NO_MOTION), "NO_MOTION");
+  EXPECT_EQ(reason.at(mount_t::REASON_NO_PLANE), "NO_PLANE");
+  EXPECT_EQ(reason.at(mount_t::REASON_SLOW), "SLOW");
+  EXPECT_EQ(reason.at(mount_t::REASON_TURNING), "TURNING");
 }
 
 TEST_F(DbcFile, ReasonsHaveTheNumbersOfTheMessages) {

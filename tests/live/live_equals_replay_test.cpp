@@ -59,16 +59,19 @@ Expected replay(const std::string& log) {
 // "not available" for want of input, which the log's end brings live and not in the replay.
 std::map<std::uint32_t, std::vector<std::string>> said_on_can(const std::string& path) {
   constexpr std::uint32_t kFirstId = 0x3A0;
-  constexpr std::uint32_t kStatusId = 0x3A7;  // counters and times of the process itself, until
-  constexpr std::uint32_t kListId = 0x3B0;    // the objects begin
+  constexpr std::uint32_t kStatusId =
+      0x3A7;  // this and the next: the process's own counters and times
+  constexpr std::uint32_t kMountId = 0x3A9;
+  constexpr std::uint32_t kListId = 0x3B0;  // the objects begin
   std::map<std::uint32_t, std::vector<std::string>> said;
   CanTraceReader reader(path);
   CanFrame frame;
   std::int64_t time_us = 0;
   while (reader.next(&time_us, &frame)) {
     EXPECT_GE(frame.id, kFirstId);
-    if (frame.id >= kStatusId && frame.id < kListId) continue;
-    const bool four_bits = frame.id == 0x3A1 || frame.id == 0x3A3 || frame.id == kListId;
+    if (frame.id == kStatusId || frame.id == kStatusId + 1) continue;
+    const bool four_bits =
+        frame.id == 0x3A1 || frame.id == 0x3A3 || frame.id == kMountId || frame.id == kListId;
     const int flags =
         frame.data[1] >> 4;  // validity; a status, a count or an index where it has four bits
     const bool is_object = frame.id > kListId;
@@ -93,7 +96,7 @@ void expect_nothing_lost(const Expected& expected, const LiveResult& live) {
   EXPECT_GE(num_mounts, expected.num_images / 10) << "one a second";
   EXPECT_EQ(num_inputs, live.tracker.num_received);
   EXPECT_EQ(num_lists, live.tracker.num_published);
-  EXPECT_EQ(2 * expected.num_images + num_lists, live.can.num_received);
+  EXPECT_EQ(2 * expected.num_images + num_lists + num_mounts, live.can.num_received);
   for (const process_health_t* m : {&live.vo, &live.ground, &live.tracker, &live.can}) {
     EXPECT_EQ(0, m->num_dropped) << m->process;
     EXPECT_EQ(0, m->num_rejected) << m->process;
@@ -121,7 +124,7 @@ void expect_same_can(const std::string& log, const std::string& live_trace, bool
     for (const std::uint32_t id : {0x3B0U, 0x3B10U, 0x3B20U, 0x3B30U})
       EXPECT_EQ(1U, expected.count(id)) << std::hex << id << ", the nearest object's";
   } else {
-    EXPECT_EQ(7U, expected.size()) << "identifiers 3A0 to 3A6";
+    EXPECT_EQ(8U, expected.size()) << "identifiers 3A0 to 3A6, 3A9";
   }
   for (const auto& [id, list] : expected) {
     ASSERT_TRUE(live.count(id) == 1) << std::hex << id;

@@ -11,6 +11,7 @@
 #include "platform/clock.hpp"
 #include "platform/config.hpp"
 #include "platform/input_error.hpp"
+#include "platform/log.hpp"
 #include "platform/log_file.hpp"
 #include "platform/text.hpp"
 #include "tools/replay/frame_csv.hpp"
@@ -182,6 +183,7 @@ void add_options(CLI::App* app, Arguments* arguments) {
 }  // namespace plumb
 
 int main(int argc, char** argv) {
+  plumb::set_log_name("plumb-replay");
   plumb::Arguments arguments;
   CLI::App app("A log through vo, ground, objects and can in one process", "plumb-replay");
   plumb::add_options(&app, &arguments);

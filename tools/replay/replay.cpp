@@ -6,6 +6,14 @@
 #include "platform/channels.hpp"
 
 namespace plumb {
+namespace {
+
+MountConfig without_file(MountConfig config) {
+  config.state_file.clear();
+  return config;
+}
+
+}  // namespace
 
 Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
                ObjectsSink objects_sink)
@@ -15,10 +23,10 @@ Replay::Replay(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink,
           [this](const ground_plane_t& plane, const ego_motion_t& ego) {
             plane_ = &plane;
             ego_ = &ego;
-            if (ground_.output() != nullptr) mount_.update(*ground_.output());
+            if (ground_.output() != nullptr) mount_message_ = mount_.update(*ground_.output());
           },
           load_ground_model(config.ground.model_file)),
-      mount_(config.mount),
+      mount_(without_file(config.mount)),
       objects_(config.detections, config.objects, config.ground,
                [this](const objects_t& objects) { take_objects(objects); }),
       can_(config.can),
@@ -56,6 +64,7 @@ void Replay::take_image(std::span<const std::uint8_t> bytes) {
   record.ground_timer = &ground_timer_;
   plane_ = nullptr;
   ego_ = nullptr;
+  mount_message_ = nullptr;
   // Live, CAMERA reaches plumb-ground before the motion that plumb-vo makes of it.
   const char* ground_refused = ground_.take_image(bytes);
   record.refused = vo_.take_image(bytes);
@@ -74,7 +83,7 @@ void Replay::take_image(std::span<const std::uint8_t> bytes) {
     const char* objects_refused = objects_.take_plane(*plane_);
     if (const char* why = objects_.take_ego(*ego_)) objects_refused = why;
     if (record.refused == nullptr) record.refused = objects_refused;
-    send_can(*plane_, *ego_);
+    send_can();
   }
   if (record.refused != nullptr) refuse("frame " + std::to_string(frame.seq), record.refused);
   ++num_frames_;
@@ -98,11 +107,12 @@ void Replay::take_objects(const objects_t& objects) {
   can_.on_objects(objects, objects.utime);
 }
 
-void Replay::send_can(const ground_plane_t& plane, const ego_motion_t& ego) {
+void Replay::send_can() {
   if (can_sink_ == nullptr) return;
-  can_.advance(plane.utime, *can_sink_);
-  can_.on_ground_plane(plane, plane.utime);
-  can_.on_ego_motion(ego, ego.utime);
+  can_.advance(plane_->utime, *can_sink_);
+  can_.on_ground_plane(*plane_, plane_->utime);
+  can_.on_ego_motion(*ego_, ego_->utime);
+  if (mount_message_ != nullptr) can_.on_mount(*mount_message_, mount_message_->utime);
 }
 
 void Replay::finish() {

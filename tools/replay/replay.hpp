@@ -15,6 +15,7 @@
 #include "modules/can/can_wire.hpp"
 #include "modules/config.hpp"
 #include "modules/ground/ground_node.hpp"
+#include "modules/ground/mount_node.hpp"
 #include "modules/objects/objects_node.hpp"
 #include "modules/vo/vo_node.hpp"
 #include "platform/log_file.hpp"
@@ -58,7 +59,7 @@ class Replay {
   [[nodiscard]] std::int64_t num_lost() const { return vo_.num_lost(); }
   [[nodiscard]] bool calibrated() const { return vo_.calibrated(); }
   [[nodiscard]] const GroundNode& ground() const { return ground_; }
-  /// From this log alone: a state file is not read.
+  /// From this log alone: a state file is neither read nor written.
   [[nodiscard]] const MountReport& mount() const { return mount_.report(); }
   [[nodiscard]] const StageTimer& vo_timer() const { return vo_timer_; }
   [[nodiscard]] const StageTimer& ground_timer() const { return ground_timer_; }
@@ -68,14 +69,14 @@ class Replay {
   void take_image(std::span<const std::uint8_t> bytes);
   void take_detections(std::span<const std::uint8_t> bytes);
   void take_objects(const objects_t& objects);
-  void send_can(const ground_plane_t& plane, const ego_motion_t& ego);
+  void send_can();
   void refuse(const std::string& what, const char* why);
 
   StageTimer vo_timer_;
   StageTimer ground_timer_;
   VoNode vo_;
   GroundNode ground_;
-  MountCheck mount_;
+  MountNode mount_;
   ObjectsNode objects_;
   CanOutput can_;
   CanSink* can_sink_;
@@ -83,6 +84,7 @@ class Replay {
   ObjectsSink objects_sink_;
   const ground_plane_t* plane_ = nullptr;  ///< of the image in hand
   const ego_motion_t* ego_ = nullptr;
+  const mount_t* mount_message_ = nullptr;  ///< null for most images
   std::int64_t num_frames_ = 0;
   std::int64_t num_refused_ = 0;
   std::string first_refusal_;

@@ -1,6 +1,6 @@
-/// drive_log LOG            writes an LCM log of GROUND_PLANE, EGO_MOTION and OBJECTS: a made-up drive that visits
-///                          every status, both ends of every range, a lost frame, lost halves, and lists of none to
-///                          more objects than CAN carries.
+/// drive_log LOG            writes an LCM log of GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS: a made-up drive that
+///                          visits every status, both ends of every range, a lost frame, lost halves, and lists of none
+///                          to more objects than CAN carries.
 /// drive_log LOG --trace T  reads any log with these channels and writes the CAN trace of its replay.
 #include <cmath>
 #include <cstdio>
@@ -102,6 +102,16 @@ objects_t objects_of(int frame) {
   return m;
 }
 
+mount_t mount_of(int frame) {
+  mount_t m{};
+  m.utime = frame * kFrameUs;
+  m.status = static_cast<std::int8_t>(frame / 10 % 4);
+  m.reason = static_cast<std::int8_t>(frame / 10 % 5);
+  m.progress = 0.005 * frame;
+  for (int i = 0; i < 3; ++i) m.recent_rad[i] = wave(frame + 7 * i, 0.0, 0.5, 70.0);
+  return m;
+}
+
 template <typename MessageType>
 void put(LogWriter& log, const Channel& channel, const MessageType& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -116,6 +126,7 @@ void write_log(const char* path) {
     if (frame != 140) put(log, kGroundPlane, plane_of(frame));
     if (frame != 160) put(log, kEgoMotion, ego_of(frame));
     if (frame != 170) put(log, kObjects, objects_of(frame));
+    if (frame % 10 == 5) put(log, kMount, mount_of(frame));
   }
   log.close();
 }
@@ -133,6 +144,7 @@ bool write_trace(const char* log_path, const char* trace_path) {
   ground_plane_t plane;
   ego_motion_t ego;
   objects_t objects;
+  mount_t mount;
   LogEvent event;
   while (log.next(&event)) {
     if (take(event, kGroundPlane, &plane)) {
@@ -145,6 +157,9 @@ bool write_trace(const char* log_path, const char* trace_path) {
       output.advance(objects.utime, trace);
       if (!output.on_objects(objects, objects.utime))
         std::printf("objects of %lld are refused\n", static_cast<long long>(objects.seq));
+    } else if (take(event, kMount, &mount)) {
+      output.advance(mount.utime, trace);
+      output.on_mount(mount, mount.utime);
     }
   }
   output.finish(trace);
