@@ -104,6 +104,25 @@ TEST(Drive, TurntableTurnsThereAndBackWithinItsTime) {
   EXPECT_NEAR(turned(7.0), 0.0, 1e-6);
 }
 
+TEST(Drive, AKnockTurnsTheCameraAndLeavesItsPlaceAndTheVehicleAlone) {
+  const Route route = make_builtin_route("straight", 8.0, 3);
+  const Terrain terrain(route);
+  DriveConfig config;
+  config.mount.yaw_rad = 0.01;
+  const Drive before(terrain, config);
+  config.knock.at_s = 3.0;
+  config.knock.yaw_rad = 0.05;
+  const Drive drive(terrain, config);
+  for (const double t : {0.5, 2.999, 3.0, 6.0}) {
+    const Se3 T_before_knocked = before.T_map_cam(t).inverse() * drive.T_map_cam(t);
+    EXPECT_LT(T_before_knocked.t.norm(), 1e-12);
+    const Eigen::Vector3d turn_rad = log_so3(T_before_knocked.R);
+    EXPECT_NEAR(turn_rad.y(), t < 3.0 ? 0.0 : -0.05, 1e-9)
+        << "left, about the axis that points down";
+    EXPECT_LT((before.T_map_veh(t).R - drive.T_map_veh(t).R).norm(), 1e-12);
+  }
+}
+
 TEST(Drive, TheStopRouteStandsAndDrivesOn) {
   const Route route = make_builtin_route("stop", 14.0, 3);
   const Terrain terrain(route);

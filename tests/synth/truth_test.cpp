@@ -33,6 +33,25 @@ TEST(RoadPlane, NormalPointsDownAndHeightIsTheMount) {
   EXPECT_LT(plane.rms_m, 1e-6);
 }
 
+TEST(RoadPlane, FollowsAKnockFromTheFirstFrameAfterIt) {
+  SynthConfig config = test::small_config("straight", 30);
+  config.flat = true;
+  config.drive.suspension = 0.0;
+  config.drive.knock.at_s = 1.0;
+  config.drive.knock.pitch_rad = 0.03;
+  const Studio studio(config);
+  const auto pitch_rad = [&](double time_s) {
+    const PlaneTruth plane = road_plane(studio.terrain(), studio.drive().T_map_cam(time_s));
+    EXPECT_NEAR(plane.height_m, 1.65, 1e-6);
+    return std::asin(plane.n_cam.z());
+  };
+  // The whole exposure and readout of a frame lie on one side.
+  for (const double off_s : {-0.04, 0.0, 0.04}) {
+    EXPECT_NEAR(pitch_rad(studio.time_s(9) + off_s), 0.0, 1e-6);
+    EXPECT_NEAR(pitch_rad(studio.time_s(10) + off_s), 0.03, 1e-6);
+  }
+}
+
 TEST(RoadPlane, RenderedRoadPointsSatisfyIt) {
   SynthConfig config = test::small_config("straight", 30);
   config.drive.mount.pitch_rad = 0.02;

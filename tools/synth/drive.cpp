@@ -103,6 +103,13 @@ Se3 mount_transform(const MountConfig& mount) {
   return {tilt * R_veh_axes, {mount.ahead_m, 0.0, mount.height_m}};
 }
 
+MountConfig knocked(MountConfig mount, const KnockConfig& knock) {
+  mount.pitch_rad += knock.pitch_rad;
+  mount.roll_rad += knock.roll_rad;
+  mount.yaw_rad += knock.yaw_rad;
+  return mount;
+}
+
 VehicleState mix(const VehicleState& a, const VehicleState& b, double f) {
   const auto m = [f](double x, double y) { return x + f * (y - x); };
   return {m(a.s_m, b.s_m),
@@ -118,7 +125,10 @@ VehicleState mix(const VehicleState& a, const VehicleState& b, double f) {
 }  // namespace
 
 Drive::Drive(const Terrain& terrain, const DriveConfig& config)
-    : terrain_(&terrain), config_(config), T_veh_cam_(mount_transform(config.mount)) {
+    : terrain_(&terrain),
+      config_(config),
+      T_veh_cam_(mount_transform(config.mount)),
+      T_veh_cam_knocked_(mount_transform(knocked(config.mount, config.knock))) {
   integrate();
 }
 
@@ -216,6 +226,9 @@ Se3 Drive::T_map_veh(double time_s) const {
   return T_map_veh;
 }
 
-Se3 Drive::T_map_cam(double time_s) const { return T_map_veh(time_s) * T_veh_cam_; }
+Se3 Drive::T_map_cam(double time_s) const {
+  const bool is_knocked = config_.knock.at_s > 0.0 && time_s >= config_.knock.at_s;
+  return T_map_veh(time_s) * (is_knocked ? T_veh_cam_knocked_ : T_veh_cam_);
+}
 
 }  // namespace plumb::synth

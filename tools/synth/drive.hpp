@@ -22,8 +22,17 @@ struct MountConfig {
   double yaw_rad = 0.0;    ///< to the left
 };
 
+/// The camera is knocked: from a moment on it is turned about its optical centre.
+struct KnockConfig {
+  double at_s = 0.0;  ///< never when not positive
+  double pitch_rad = 0.0;
+  double roll_rad = 0.0;
+  double yaw_rad = 0.0;
+};
+
 struct DriveConfig {
   MountConfig mount;
+  KnockConfig knock;
   double suspension = 1.0;      ///< scales every motion on the springs; 0 = rigid
   double yaw_rate_rad_s = 0.0;  ///< turntable: added rotation about the camera's vertical
   double turn_from_s = 0.0;     ///< the turntable turns there and back in this time;
@@ -60,6 +69,7 @@ class Drive {
   const Terrain* terrain_;
   DriveConfig config_;
   Se3 T_veh_cam_;
+  Se3 T_veh_cam_knocked_;
   std::vector<VehicleState> states_;  ///< every Schedule::kTimeStep
 };
 

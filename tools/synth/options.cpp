@@ -106,6 +106,19 @@ void declare_camera(CLI::App& app, Options& o) {
   app.add_option("--mount-yaw", o.mount_yaw_deg,
                  "degrees to the left; default from the seed, sd 0.3")
       ->check(CLI::Range(-15.0, 15.0));
+  app.add_option("--knock-at", c.drive.knock.at_s,
+                 "s: from the first frame then on the camera is turned on its mount; 0 = never")
+      ->check(CLI::Range(0.0, 10000.0))
+      ->capture_default_str();
+  app.add_option("--knock-pitch", o.knock_pitch_deg, "by so many degrees nose down")
+      ->check(CLI::Range(-15.0, 15.0))
+      ->capture_default_str();
+  app.add_option("--knock-roll", o.knock_roll_deg, "right side down")
+      ->check(CLI::Range(-15.0, 15.0))
+      ->capture_default_str();
+  app.add_option("--knock-yaw", o.knock_yaw_deg, "to the left")
+      ->check(CLI::Range(-15.0, 15.0))
+      ->capture_default_str();
 }
 
 void declare_sensor(CLI::App& app, Options& o) {
@@ -215,6 +228,10 @@ void complete(Options& o) {
   const DarkSpan turning = parse_span("--turntable-span", o.turntable_span, 1.0, 0.0);
   c.drive.turn_from_s = turning.from_s;
   c.drive.turn_to_s = turning.to_s;
+  if (c.drive.knock.at_s <= 0.0 &&
+      (o.knock_pitch_deg != 0.0 || o.knock_roll_deg != 0.0 || o.knock_yaw_deg != 0.0)) {
+    throw UsageError("--knock-pitch, --knock-roll and --knock-yaw go with --knock-at");
+  }
   if (c.sensor.step_factor != 1.0 && c.sensor.step_every_s <= 0.0) c.sensor.step_every_s = 4.0;
 
   Random random(hash_keys(c.seed, 0x3072));
@@ -225,6 +242,9 @@ void complete(Options& o) {
   c.drive.mount.pitch_rad = tilt(o.mount_pitch_deg, 0.5);
   c.drive.mount.roll_rad = tilt(o.mount_roll_deg, 0.5);
   c.drive.mount.yaw_rad = tilt(o.mount_yaw_deg, 0.3);
+  c.drive.knock.pitch_rad = kDegree * o.knock_pitch_deg;
+  c.drive.knock.roll_rad = kDegree * o.knock_roll_deg;
+  c.drive.knock.yaw_rad = kDegree * o.knock_yaw_deg;
   const double drawn_azimuth = random.uniform(0.0, 360.0);
   c.light.sun_azimuth_rad =
       kDegree *

@@ -22,6 +22,9 @@ struct Options {
   double mount_pitch_deg = 1e9;
   double mount_roll_deg = 1e9;
   double mount_yaw_deg = 1e9;
+  double knock_pitch_deg = 0.0;
+  double knock_roll_deg = 0.0;
+  double knock_yaw_deg = 0.0;
   double focal_px = 0.0;
   bool overcast = false;
 };

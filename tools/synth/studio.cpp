@@ -24,6 +24,15 @@ Route make_route(const SynthConfig& config) {
   return route;
 }
 
+/// Half a frame before the first one at or after the wish: no exposure and no readout sees the knock itself.
+DriveConfig knocked_between_frames(const SynthConfig& config) {
+  DriveConfig drive = config.drive;
+  if (drive.knock.at_s <= 0.0) return drive;
+  const double first_frame = std::ceil(drive.knock.at_s * config.rate_hz - 1e-9);
+  drive.knock.at_s = (first_frame - 0.5) / config.rate_hz + kLeadIn;
+  return drive;
+}
+
 }  // namespace
 
 double DarkSpan::factor(double time_s) const {
@@ -38,7 +47,7 @@ Studio::Studio(const SynthConfig& config)
     : config_(config),
       route_(make_route(config)),
       terrain_(route_),
-      drive_(terrain_, config.drive),
+      drive_(terrain_, knocked_between_frames(config)),
       scene_(terrain_, drive_, config.scene),
       textures_(config.seed),
       lighting_(config.light, textures_),
