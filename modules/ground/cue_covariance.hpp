@@ -18,6 +18,22 @@ struct CueContext {
   double step_ratio = 1.0;  ///< motion since the previous image, in camera heights
 };
 
+/// What the errors of the reported plane follow besides the filter's own covariance. Squares of the angles (n1, n3) by
+/// which a cue leaves the fused normal; means are over the last camera heights of way.
+struct PlaneContext {
+  CueContext cue;                ///< of the last frame that looked for cues
+  double dense_n1_square = 0.0;  ///< mean
+  double dense_n3_square = 0.0;  ///< in this frame; the mean where the dense cue saw nothing
+  double travel_square = 0.0;    ///< mean
+};
+
+/// Beside what the filter says of (pitch, roll, ln height).
+struct PlaneVariance {
+  double pitch_rad2 = 0.0;
+  double roll_rad2 = 0.0;
+  double ln_height = 0.0;
+};
+
 class CueCovariance {
  public:
   virtual ~CueCovariance() = default;
@@ -39,8 +55,10 @@ class CueCovariance {
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
   [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
   [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
-  /// What no frame can tell, because it is the same in all frames of a drive; nothing where nobody measured it.
-  [[nodiscard]] virtual PlaneBias bias() const { return {}; }
+  /// What is reported on top of the filter's covariance; nothing where nobody measured it.
+  [[nodiscard]] virtual PlaneVariance plane(const PlaneContext& /*context*/) const { return {}; }
+  /// 1-sigma of what no frame can tell of ln scale, because it is the same in all frames of a drive.
+  [[nodiscard]] virtual double ln_scale_bias_std() const { return 0.0; }
 };
 
 /// Set by hand: pixel noise plus a floor for what pixel noise does not explain, pose error, heave

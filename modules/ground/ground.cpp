@@ -11,6 +11,7 @@
 #include "modules/ground/image_ring.hpp"
 #include "modules/ground/learned_covariance.hpp"
 #include "modules/ground/plane_angles.hpp"
+#include "modules/ground/plane_dissent.hpp"
 #include "modules/ground/plane_filter.hpp"
 #include "modules/ground/points_cue.hpp"
 #include "modules/ground/seen_height.hpp"
@@ -65,7 +66,7 @@ struct GroundEstimator::Impl {
         ring(camera),
         dense_cue(ring.camera(), ring.num_levels()),
         covariance(make_covariance(config_in, model)),
-        bias(covariance->bias()) {}
+        scale_bias_var(covariance->ln_scale_bias_std() * covariance->ln_scale_bias_std()) {}
 
   void take_image(const GroundInput& input);
   void follow_scale_epoch(const VoOutput& vo);
@@ -90,8 +91,9 @@ struct GroundEstimator::Impl {
   DenseCue dense_cue;
   PointsCue points_cue;
   std::unique_ptr<const CueCovariance> covariance;
-  PlaneBias bias;
+  double scale_bias_var;
   PlaneFilter filter;
+  PlaneDissent dissent;
   EgoMotion ego;
   std::int32_t scale_epoch = 0;
   GroundOutput out;
@@ -141,7 +143,9 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   m.frame.filter_started = m.filter.started();
   m.frame.state = m.filter.state();
   m.frame.cov = m.filter.cov();
-  m.frame.bias = m.bias;
+  m.frame.plane_context = m.dissent.context();
+  m.frame.plane_added = m.covariance->plane(m.dissent.context());
+  m.frame.ln_scale_bias_var = m.scale_bias_var;
   m.write_cues();
   m.write_plane(vo, m.frame.image != nullptr);
   probe.mark("fuse");
@@ -287,7 +291,10 @@ void GroundEstimator::Impl::start_filter() {
 void GroundEstimator::Impl::fuse() {
   if (!frame.searched) return;
   const bool starts = !filter.started();
-  if (starts) start_filter();
+  if (starts) {
+    start_filter();
+    dissent.forget();
+  }
   if (!filter.started()) return;
   filter.observe_level_roll();
   const CueContext& context = frame.context;
@@ -305,6 +312,7 @@ void GroundEstimator::Impl::fuse() {
   }
   if (starts && frame.height_refused()) filter.forget();  // not the road: a truck's back, a mirror
   filter.end_frame(frame.height_measured(), frame.height_refused());
+  dissent.add(frame, filter.state());
 }
 
 /// The last of the cues, so that the gate holds it against this frame's others. Not at rest: the same boxes again and
@@ -375,8 +383,8 @@ void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
 
   const Eigen::Matrix2d J = angles_jacobian(plane.normal_cam);
   plane.cov.topLeftCorner<2, 2>() = J * filter.cov().topLeftCorner<2, 2>() * J.transpose();
-  plane.cov(0, 0) += bias.pitch_std_rad * bias.pitch_std_rad;
-  plane.cov(1, 1) += bias.roll_std_rad * bias.roll_std_rad;
+  plane.cov(0, 0) += frame.plane_added.pitch_rad2;
+  plane.cov(1, 1) += frame.plane_added.roll_rad2;
   write_height();
 }
 
@@ -384,7 +392,7 @@ void GroundEstimator::Impl::write_height() {
   PlaneOutput& plane = out.plane;
   const Eigen::Matrix3d& P = filter.cov();
   plane.height_m = camera_height_m;
-  plane.cov(2, 2) = P(2, 2) + bias.ln_height_std * bias.ln_height_std;
+  plane.cov(2, 2) = P(2, 2) + frame.plane_added.ln_height;
   if (!frame.height_measured()) return;
   const SeenHeight seen = see_height(frame, *covariance, filter.state());
   const Eigen::RowVector3d g(seen.slope(0), seen.slope(1), -1.0);
@@ -408,10 +416,9 @@ ScaleEstimate GroundEstimator::Impl::scale() const {
   if (!scale.known) return scale;
   scale.measured_now = frame.height_measured();
   scale.log_scale = std::log(camera_height_m) - filter.state()(2);
-  const double bias_var = bias.ln_scale_std * bias.ln_scale_std;
-  scale.var = filter.cov()(2, 2) + bias_var;
+  scale.var = filter.cov()(2, 2) + scale_bias_var;
   if (frame.var_before > 0.0) {
-    scale.kept_ratio = std::clamp(scale.var / (frame.var_before + bias_var), 0.0, 1.0);
+    scale.kept_ratio = std::clamp(scale.var / (frame.var_before + scale_bias_var), 0.0, 1.0);
   }
   return scale;
 }

@@ -12,6 +12,7 @@ constexpr double kUsualStepRatio = 0.5;
 constexpr double kUsualPoints = 10.0;
 constexpr double kUsualSpread = 0.02;
 constexpr double kLeastNcc = 0.1;
+constexpr double kUsualDissent = 0.003;
 
 struct BuiltIn {
   const char* key;
@@ -48,6 +49,15 @@ CueFeatures points_features(double num_inliers, double spread, double turn_ratio
 
 CueFeatures travel_features(double turn_ratio, double step_ratio) {
   return {0.0, 0.0, turn_feature(turn_ratio), step_feature(step_ratio)};
+}
+
+CueFeatures plane_features(double dense_square, double travel_square, double turn_ratio,
+                           double step_ratio) {
+  const auto dissent = [](double square) {
+    return std::log1p(std::min(square, 1.0) / (kUsualDissent * kUsualDissent));
+  };
+  return {dissent(dense_square), dissent(travel_square), turn_feature(turn_ratio),
+          step_feature(step_ratio)};
 }
 
 double LogVariance::of(const CueFeatures& features) const {

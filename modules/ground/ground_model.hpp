@@ -31,6 +31,12 @@ enum PointsFeature : std::size_t {
   kPointsTurn = 2,
   kPointsStep = 3
 };
+enum PlaneFeature : std::size_t {
+  kPlaneDense = 0,
+  kPlaneTravel = 1,
+  kPlaneTurn = 2,
+  kPlaneStep = 3
+};
 
 /// Grows with the path's curvature times camera height, from 0 when straight on: calibration's leftovers bend the flow.
 [[nodiscard]] double turn_feature(double turn_ratio);
@@ -43,6 +49,9 @@ enum PointsFeature : std::size_t {
                                           double step_ratio);
 /// Turn and step only.
 [[nodiscard]] CueFeatures travel_features(double turn_ratio, double step_ratio);
+/// Of the reported plane: squares of the angles by which dense cue and direction of travel leave the fused normal.
+[[nodiscard]] CueFeatures plane_features(double dense_square, double travel_square,
+                                         double turn_ratio, double step_ratio);
 
 struct LogVariance {
   double ln_var = 0.0;
@@ -51,14 +60,6 @@ struct LogVariance {
   double high_std = 0.0;
 
   [[nodiscard]] double of(const CueFeatures& features) const;
-};
-
-/// 1-sigma of what no frame can tell, because it is the same in all frames of a drive.
-struct PlaneBias {
-  double ln_scale_std = 0.0;
-  double ln_height_std = 0.0;
-  double pitch_std_rad = 0.0;
-  double roll_std_rad = 0.0;
 };
 
 /// Where the numbers come from.
@@ -79,7 +80,11 @@ struct GroundModel {
   double dense_memory_ratio = 0.0;
   double points_memory_ratio = 0.0;
   double objects_repetition = 1.0;  ///< images over which the objects' error of n3 stays alike
-  PlaneBias bias;
+  /// What is reported on top of the filter's own variances.
+  LogVariance plane_pitch;
+  LogVariance plane_roll;
+  LogVariance plane_height;
+  double ln_scale_bias_std = 0.0;  ///< what no frame can tell: it is the same in a whole drive
   LinearVariance objects_n3;  ///< of n3 out of detected objects, by the variance of the boxes alone
   PaperModel paper;
 

@@ -50,6 +50,16 @@ inline constexpr std::array<SlopeField, kNumCueFeatures> kPointsSlopes{
      {"step", "as above"}}};
 inline constexpr std::array<SlopeField, kNumCueFeatures> kTravelSlopes{
     {{nullptr, nullptr}, {nullptr, nullptr}, {"turn", "as above"}, {"step", "as above"}}};
+inline constexpr std::array<SlopeField, kNumCueFeatures> kPlaneSlopes{
+    {{"dense", "per ln(1 + (tilt of dense cue against fused normal / 0.003)^2)"},
+     {"travel", "per ln(1 + (direction of travel against fused normal / 0.003)^2)"},
+     {"turn", "as above"},
+     {"step", "as above"}}};
+inline constexpr std::array<SlopeField, kNumCueFeatures> kRollSlopes{
+    {{"dense", "as above, sideways"},
+     {nullptr, nullptr},
+     {"turn", "as above"},
+     {"step", "as above"}}};
 
 }  // namespace detail
 
@@ -71,10 +81,15 @@ void GroundModel::visit(Model& m, Visit&& field) {
   field("memory.points_ratio", m.points_memory_ratio, 0.0, 1000.0, "the same, points");
   field("memory.objects_images", m.objects_repetition, 1.0, 1000.0,
         "images that share one error of the detected objects' pitch");
-  field("bias.ln_scale_std", m.bias.ln_scale_std, 0.0, 0.5, "1-sigma of what a whole drive keeps");
-  field("bias.ln_height_std", m.bias.ln_height_std, 0.0, 0.5, "the same");
-  field("bias.pitch_std_rad", m.bias.pitch_std_rad, 0.0, 0.2, "the same");
-  field("bias.roll_std_rad", m.bias.roll_std_rad, 0.0, 0.2, "the same");
+  visit_log_variance("plane_pitch",
+                     "ln variance of reported pitch beside the filter's, usual frame", kPlaneSlopes,
+                     m.plane_pitch, field);
+  visit_log_variance("plane_roll", "ln variance of reported roll beside the filter's, usual frame",
+                     kRollSlopes, m.plane_roll, field);
+  visit_log_variance("plane_height",
+                     "ln variance of reported ln h beside the filter's, usual frame", kPlaneSlopes,
+                     m.plane_height, field);
+  field("bias.ln_scale_std", m.ln_scale_bias_std, 0.0, 0.5, "1-sigma of what a whole drive keeps");
   visit_line("objects_n3", m.objects_n3, field);
   visit_line("paper_dense_n1", m.paper.dense_n1, field);
   visit_line("paper_dense_n3", m.paper.dense_n3, field);

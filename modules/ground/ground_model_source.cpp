@@ -51,6 +51,9 @@ GroundModel load_ground_model(const std::string& path) {
   check("dense_height", model.dense_height);
   check("points", model.points);
   check("travel", model.travel);
+  check("plane_pitch", model.plane_pitch);
+  check("plane_roll", model.plane_roll);
+  check("plane_height", model.plane_height);
   check_bounds(path, "objects_n3", model.objects_n3.least, model.objects_n3.most);
   check_bounds(path, "paper_dense_n1", model.paper.dense_n1.least, model.paper.dense_n1.most);
   check_bounds(path, "paper_dense_n3", model.paper.dense_n3.least, model.paper.dense_n3.most);

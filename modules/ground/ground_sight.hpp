@@ -25,7 +25,9 @@ struct GroundSight {
   bool filter_started = false;                      ///< the two below hold
   Eigen::Vector3d state = Eigen::Vector3d::Zero();  ///< of the filter, this frame's cues in it
   Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();
-  PlaneBias bias;  ///< what was reported on top of `cov`
+  PlaneContext plane_context;
+  PlaneVariance plane_added;       ///< what was reported on top of `cov`
+  double ln_scale_bias_var = 0.0;  ///< the same
 };
 
 }  // namespace plumb

@@ -47,6 +47,15 @@ double LearnedCovariance::travel(const Travel& /*travel*/, const CueContext& con
   return model_.travel.of(travel_features(context.turn_ratio, context.step_ratio));
 }
 
+PlaneVariance LearnedCovariance::plane(const PlaneContext& context) const {
+  const auto [turn_ratio, step_ratio] = context.cue;
+  const CueFeatures forward =
+      plane_features(context.dense_n3_square, context.travel_square, turn_ratio, step_ratio);
+  const CueFeatures sideways = plane_features(context.dense_n1_square, 0.0, turn_ratio, step_ratio);
+  return {model_.plane_pitch.of(forward), model_.plane_roll.of(sideways),
+          model_.plane_height.of(forward)};
+}
+
 double LearnedCovariance::dense_repetition(const CueContext& context) const {
   return turn_repetition(context) * repetition_of(model_.dense_memory_ratio, context.step_ratio);
 }

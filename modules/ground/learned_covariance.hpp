@@ -23,7 +23,8 @@ class LearnedCovariance final : public CueCovariance {
   [[nodiscard]] double objects_repetition() const override { return model_.objects_repetition; }
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
-  [[nodiscard]] PlaneBias bias() const override { return model_.bias; }
+  [[nodiscard]] PlaneVariance plane(const PlaneContext& context) const override;
+  [[nodiscard]] double ln_scale_bias_std() const override { return model_.ln_scale_bias_std; }
 
  private:
   GroundModel model_;

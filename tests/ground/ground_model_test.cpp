@@ -123,6 +123,28 @@ TEST(LearnedCovariance, TrustsACueLessInATurnAndWithDoubt) {
   EXPECT_GT(learned.dense(dense, {0.0, 0.6})(2, 2), 1.5 * straight);
 }
 
+TEST(LearnedCovariance, DoubtsAPlaneThatItsCuesDispute) {
+  GroundModel model = built_in_ground_model();
+  for (LogVariance* v : {&model.plane_pitch, &model.plane_roll, &model.plane_height})
+    *v = {std::log(1e-6), {1.0, 0.5, 0.0, 0.0}, 1e-5, 0.1};
+  const LearnedCovariance learned(model);
+  PlaneContext context;
+  context.cue = {0.0, 0.5};
+  const PlaneVariance agree = learned.plane(context);
+  EXPECT_NEAR(agree.pitch_rad2, 1e-6, 1e-12);
+  EXPECT_NEAR(agree.roll_rad2, 1e-6, 1e-12);
+  EXPECT_NEAR(agree.ln_height, 1e-6, 1e-12);
+  context.dense_n3_square = 8.0 * 9e-6;  // ln(1 + 8) on the slope of one: nine times
+  EXPECT_NEAR(learned.plane(context).pitch_rad2, 9e-6, 1e-11);
+  EXPECT_NEAR(learned.plane(context).ln_height, 9e-6, 1e-11);
+  EXPECT_EQ(learned.plane(context).roll_rad2, agree.roll_rad2);
+  context.travel_square = 8.0 * 9e-6;
+  EXPECT_NEAR(learned.plane(context).pitch_rad2, 27e-6, 1e-11);
+  context.dense_n1_square = 8.0 * 9e-6;
+  EXPECT_NEAR(learned.plane(context).roll_rad2, 9e-6, 1e-11);
+  EXPECT_EQ(FloorCovariance().plane(context).pitch_rad2, 0.0);
+}
+
 TEST(LearnedCovariance, CountsImagesOfTheSameRoadOnce) {
   const LearnedCovariance learned(built_in_ground_model());
   const double at_10_hz = learned.dense_repetition({0.0, 0.6});

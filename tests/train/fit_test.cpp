@@ -20,7 +20,7 @@ std::vector<DriveSamples> three_drives(double ln_height_std = 0.01, double corre
 double std_of(const LogVariance& model) { return std::sqrt(model.of({})); }
 
 TEST(Fit, FindsTheDeviationsOfEveryCue) {
-  const GroundModel model = fit_cues(three_drives(), built_in_ground_model());
+  const GroundModel model = fit_targets(three_drives(), built_in_ground_model());
   EXPECT_NEAR(std_of(model.dense_height), 0.01, 0.0015);
   EXPECT_NEAR(std_of(model.dense_n1), 0.005, 0.0008);
   EXPECT_NEAR(std_of(model.dense_n3), 0.004, 0.0006);
@@ -30,7 +30,7 @@ TEST(Fit, FindsTheDeviationsOfEveryCue) {
 
 TEST(Fit, FindsHowLongErrorsStayAlike) {
   const double correlation = 0.8;
-  const GroundModel model = fit_cues(three_drives(0.01, correlation), built_in_ground_model());
+  const GroundModel model = fit_targets(three_drives(0.01, correlation), built_in_ground_model());
   // A first-order process: (1 + r) / (1 - r) = 9 images share one error; the sum is cut at 15 images.
   EXPECT_NEAR(repetition_of(model.dense_memory_ratio, 0.5), 9.0, 2.5);
   EXPECT_LT(repetition_of(model.points_memory_ratio, 0.5), 2.0);
@@ -46,8 +46,8 @@ TEST(Fit, TurnsARepetitionIntoAMemoryAndBack) {
 TEST(Fit, WidensWhereDrivesDifferMoreThanTheirFrames) {
   auto drives = three_drives();
   for (Sample& s : drives[1].frames) s.points_err += 0.05;  // this drive's points are all 5 % off
-  const double with = std_of(fit_cues(drives, built_in_ground_model()).points);
-  const double without = std_of(fit_cues(three_drives(), built_in_ground_model()).points);
+  const double with = std_of(fit_targets(drives, built_in_ground_model()).points);
+  const double without = std_of(fit_targets(three_drives(), built_in_ground_model()).points);
   EXPECT_GT(with, 1.7 * without);
 }
 
@@ -57,7 +57,7 @@ TEST(Fit, LeavesWhatSamplesSayNothingAboutAsItWas) {
     for (Sample& s : drive.frames) s.points_err = Sample::kNone;
   GroundModel start = built_in_ground_model();
   start.points.ln_var = -3.25;
-  EXPECT_EQ(fit_cues(drives, start).points.ln_var, -3.25);
+  EXPECT_EQ(fit_targets(drives, start).points.ln_var, -3.25);
 }
 
 TEST(Fit, TellsTiltFromHeightWhereThereIsNoTruePlane) {
@@ -70,10 +70,10 @@ TEST(Fit, TellsTiltFromHeightWhereThereIsNoTruePlane) {
     }
   }
   GroundModel start = built_in_ground_model();
-  EXPECT_NEAR(std_of(fit_cues(drives, start).dense_n3), 0.004, 0.0008);
+  EXPECT_NEAR(std_of(fit_targets(drives, start).dense_n3), 0.004, 0.0008);
 }
 
-TEST(Fit, ChoosesTheDeviationsOfADriveThatMakeReportedOnesTrue) {
+TEST(Fit, ChoosesTheDriveDeviationOfTheScaleThatMakesReportedOnesTrue) {
   auto drives = three_drives();
   std::mt19937_64 random(9);
   std::normal_distribution<double> normal;
@@ -83,15 +83,60 @@ TEST(Fit, ChoosesTheDeviationsOfADriveThatMakeReportedOnesTrue) {
       s.out_scale_err = 0.05 * normal(random);
       s.out_scale_var = 0.03 * 0.03 + 1e-4;  // of it 1e-4 by the model of that run
       s.out_scale_bias_var = 1e-4;
-      s.out_pitch_err = 0.001 * normal(random);
-      s.out_pitch_var = 0.01 * 0.01;
-      s.out_pitch_bias_var = 0.0;
     }
   }
   GroundModel model;
-  fit_bias(drives, &model);
-  EXPECT_NEAR(model.bias.ln_scale_std, 0.04, 0.004);
-  EXPECT_EQ(model.bias.pitch_std_rad, 0.0);
+  fit_scale_bias(drives, &model);
+  EXPECT_NEAR(model.ln_scale_bias_std, 0.04, 0.004);
+}
+
+/// Errors of a reported plane whose filter says 0.002 rad, and that grow with the dense cue's dissent.
+std::vector<DriveSamples> three_planes(double added_var_of_that_run) {
+  auto drives = three_drives();
+  std::mt19937_64 random(10);
+  std::normal_distribution<double> normal;
+  for (DriveSamples& drive : drives) {
+    drive.algorithm = "learned";
+    for (Sample& s : drive.frames) {
+      const double apart = std::abs(0.01 * normal(random));
+      const double filter_var = 0.002 * 0.002;
+      s.out_dense_n1_square = s.out_dense_n3_square = apart * apart;
+      s.out_travel_square = 0.0;
+      s.out_pitch_added_var = s.out_roll_added_var = s.out_height_added_var = added_var_of_that_run;
+      s.out_pitch_var = s.out_roll_var = s.out_height_var = filter_var + added_var_of_that_run;
+      const double std = std::sqrt(filter_var + 1e-6 * (1.0 + apart * apart / 9e-6));
+      s.out_pitch_err = std * normal(random);
+      s.out_roll_err = std * normal(random);
+      s.out_height_err = std * normal(random);
+    }
+  }
+  return drives;
+}
+
+TEST(Fit, FindsWhatTheReportedPlaneErrsBesideItsFilter) {
+  const GroundModel model = fit_targets(three_planes(0.0), built_in_ground_model(), kPlaneTargets);
+  const CueFeatures agree = plane_features(0.0, 0.0, 0.0, 0.5);
+  const CueFeatures dispute = plane_features(1e-4, 0.0, 0.0, 0.5);
+  for (const LogVariance* v : {&model.plane_pitch, &model.plane_roll, &model.plane_height}) {
+    EXPECT_NEAR(std::sqrt(v->of(agree)), 0.001, 0.0006);
+    EXPECT_NEAR(std::sqrt(v->of(dispute)), std::sqrt(1e-6 * (1.0 + 1e-4 / 9e-6)), 0.001);
+  }
+  EXPECT_EQ(model.points.ln_var, built_in_ground_model().points.ln_var);
+}
+
+TEST(Fit, OfThePlaneDoesNotDependOnWhatTheRunAdded) {
+  const GroundModel start = built_in_ground_model();
+  const GroundModel none = fit_targets(three_planes(0.0), start, kPlaneTargets);
+  const GroundModel much = fit_targets(three_planes(1e-4), start, kPlaneTargets);
+  EXPECT_NEAR(much.plane_pitch.ln_var, none.plane_pitch.ln_var, 1e-6);
+  EXPECT_NEAR(much.plane_roll.slopes[kPlaneDense], none.plane_roll.slopes[kPlaneDense], 1e-6);
+}
+
+TEST(Fit, LeavesThePlaneToRunsWithALearnedModel) {
+  auto drives = three_planes(0.0);
+  for (DriveSamples& drive : drives) drive.algorithm = "fixed";
+  const GroundModel start = built_in_ground_model();
+  EXPECT_EQ(fit_targets(drives, start).plane_pitch.ln_var, start.plane_pitch.ln_var);
 }
 
 TEST(Fit, FindsHowObjectsErrByTheirOwnVarianceAndHowLong) {
@@ -126,7 +171,7 @@ TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
   auto drives = three_drives();
   for (Sample& s : drives[2].frames) s.points_err *= 3.0;
   const auto scores = leave_one_out(drives, built_in_ground_model());
-  ASSERT_EQ(scores.size(), 3U * kTargets.size());
+  ASSERT_EQ(scores.size(), 3U * (kTargets.size() - kPlaneTargets.size()));
   for (const HeldOutScore& s : scores) {
     EXPECT_EQ(s.learned.num, 300) << s.drive;
     if (s.target != Target::kPoints) continue;

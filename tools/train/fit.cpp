@@ -105,9 +105,10 @@ double memory_of_repetition(double repetition, double step_ratio) {
   return 0.5 * step_ratio / std::atanh(1.0 / repetition);
 }
 
-GroundModel fit_cues(const std::vector<DriveSamples>& drives, const GroundModel& start) {
+GroundModel fit_targets(const std::vector<DriveSamples>& drives, const GroundModel& start,
+                        std::span<const Target> targets) {
   GroundModel model = start;
-  for (const Target target : kTargets) {
+  for (const Target target : targets) {
     const auto rows = rows_per_drive(target, drives, model);
     const std::vector<VarianceRow> all = all_rows(rows);
     if (all.size() < kFewestRows) continue;
@@ -121,13 +122,13 @@ GroundModel fit_cues(const std::vector<DriveSamples>& drives, const GroundModel&
 }
 
 std::vector<HeldOutScore> leave_one_out(const std::vector<DriveSamples>& drives,
-                                        const GroundModel& start) {
+                                        const GroundModel& start, std::span<const Target> targets) {
   std::vector<HeldOutScore> scores;
   for (std::size_t held = 0; held < drives.size(); ++held) {
     std::vector<DriveSamples> others = drives;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(held));
-    const GroundModel model = fit_cues(others, start);
-    for (const Target target : kTargets) {
+    const GroundModel model = fit_targets(others, start, targets);
+    for (const Target target : targets) {
       ScoreSum learned, hand;
       for (const TargetRow& row : rows_of(target, drives[held], model)) {
         const double extra = row.row.extra_var;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,14 +11,16 @@
 
 namespace plumb {
 
-/// Fits the five models and their memories; what `start` holds and the samples say nothing about stays.
-/// A target without rows keeps its model. @pre drives not empty
-[[nodiscard]] GroundModel fit_cues(const std::vector<DriveSamples>& drives,
-                                   const GroundModel& start);
+/// Fits the models of these targets, the cues' with their memories; what `start` holds and the samples say nothing about
+/// stays. A target without rows keeps its model. @pre drives not empty
+[[nodiscard]] GroundModel fit_targets(const std::vector<DriveSamples>& drives,
+                                      const GroundModel& start,
+                                      std::span<const Target> targets = kTargets);
 
-/// Deviations of a whole drive, so that what was reported gets a mean square of one on the typical drive, their median: on
-/// the mean, one drive over bad roads would make all others doubt themselves. Samples of another algorithm than "learned" leave them as they are.
-void fit_bias(const std::vector<DriveSamples>& drives, GroundModel* model);
+/// Deviation of a whole drive's scale, so that what was reported gets a mean square of one on the typical drive, their
+/// median: on the mean, one bad drive would make all others doubt themselves. Samples of another algorithm than
+/// "learned" leave it as it is.
+void fit_scale_bias(const std::vector<DriveSamples>& drives, GroundModel* model);
 
 /// The published method's lines (algorithm "paper").
 struct PaperFit {
@@ -53,7 +56,8 @@ struct HeldOutScore {
 };
 /// @pre at least two drives
 [[nodiscard]] std::vector<HeldOutScore> leave_one_out(const std::vector<DriveSamples>& drives,
-                                                      const GroundModel& start);
+                                                      const GroundModel& start,
+                                                      std::span<const Target> targets = kTargets);
 
 /// Mean squared ratio of error and reported deviation, per drive and quantity.
 struct OutputScore {

@@ -57,11 +57,23 @@ void add_origin(const FitCommand& command, const std::vector<DriveSamples>& driv
   for (const DriveSamples& drive : drives) names += (names.empty() ? "" : " ") + drive.drive;
   if (drives.front().algorithm == "paper") {
     model->origin.drives += "; paper: " + names;
+  } else if (command.plane_only) {
+    model->origin.drives += "; plane: " + names;
   } else {
     model->origin.drives = names;
   }
-  model->origin.command = command.command_line;
+  model->origin.command =
+      (command.plane_only ? model->origin.command + "; " : "") + command.command_line;
   model->origin.date = today();
+}
+
+void fit_learned(const FitCommand& command, const std::vector<DriveSamples>& all,
+                 const std::vector<DriveSamples>& drives, FitReport* report) {
+  const GroundModel start = report->model;
+  const auto targets = command.plane_only ? std::span<const Target>(kPlaneTargets) : kTargets;
+  if (all.size() > 1) report->held_out = leave_one_out(all, start, targets);
+  report->model = fit_targets(drives, start, targets);
+  if (!command.plane_only) fit_scale_bias(drives, &report->model);
 }
 
 }  // namespace
@@ -74,6 +86,8 @@ CLI::App* add_fit_command(CLI::App* app, FitCommand* command) {
                   "model that gives what these samples say nothing about [the built-in one]");
   sub->add_option("--hold-out", command->hold_out, "drives to score, not to fit; may be repeated")
       ->take_all();
+  sub->add_flag("--plane-only", command->plane_only,
+                "keep the cues' models: fit what the reported plane adds to them");
   sub->add_option("--json", command->json, "write model and scores to FILE")->type_name("FILE");
   sub->add_option("--plots", command->plots, "draw pictures into DIR")->type_name("DIR");
   sub->add_option("--plot-format", command->plot_format, "png or svg")
@@ -91,10 +105,7 @@ int run_fit_command(const FitCommand& command) {
     report.paper = fit_paper(drives, &report.model);
     std::cout << to_text(report.paper);
   } else {
-    const GroundModel start = report.model;
-    if (all.size() > 1) report.held_out = leave_one_out(all, start);
-    report.model = fit_cues(drives, start);
-    fit_bias(drives, &report.model);
+    fit_learned(command, all, drives, &report);
     std::cout << to_text(report.held_out);
     report.objects = fit_objects(drives, &report.model);
     if (report.objects) std::cout << to_text({*report.objects});

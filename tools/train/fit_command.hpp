@@ -12,6 +12,7 @@ struct FitCommand {
   std::vector<std::string> hold_out;
   std::string out, start, plots, json;
   std::string plot_format = "png";
+  bool plane_only = false;
   std::string command_line;  ///< for the model's origin
 };
 

@@ -10,20 +10,14 @@ struct Quantity {
   const char* name;
   double Sample::*error;
   double Sample::*var;
-  double Sample::*bias_var;  ///< null: has none
-  double PlaneBias::*bias;
 };
 
-constexpr Quantity kQuantities[] = {
-    {"ln_scale", &Sample::out_scale_err, &Sample::out_scale_var, &Sample::out_scale_bias_var,
-     &PlaneBias::ln_scale_std},
-    {"ln_height", &Sample::out_height_err, &Sample::out_height_var, &Sample::out_height_bias_var,
-     &PlaneBias::ln_height_std},
-    {"pitch", &Sample::out_pitch_err, &Sample::out_pitch_var, &Sample::out_pitch_bias_var,
-     &PlaneBias::pitch_std_rad},
-    {"roll", &Sample::out_roll_err, &Sample::out_roll_var, &Sample::out_roll_bias_var,
-     &PlaneBias::roll_std_rad},
-    {"ln_step", &Sample::out_step_err, &Sample::out_step_var, nullptr, nullptr}};
+constexpr Quantity kScale{"ln_scale", &Sample::out_scale_err, &Sample::out_scale_var};
+constexpr Quantity kQuantities[] = {kScale,
+                                    {"ln_height", &Sample::out_height_err, &Sample::out_height_var},
+                                    {"pitch", &Sample::out_pitch_err, &Sample::out_pitch_var},
+                                    {"roll", &Sample::out_roll_err, &Sample::out_roll_var},
+                                    {"ln_step", &Sample::out_step_err, &Sample::out_step_var}};
 
 constexpr int kBisections = 60;
 constexpr double kLargestBiasStd = 0.5;
@@ -36,26 +30,27 @@ double truth_var(const Quantity& q, const Sample& s) {
   return jitter * jitter;
 }
 
-VarianceScore score_drive(const Quantity& q, const DriveSamples& drive, double bias_std,
-                          bool replace_bias) {
+VarianceScore score_drive(const Quantity& q, const DriveSamples& drive) {
   ScoreSum sum;
   for (const Sample& s : drive.frames) {
-    double var = s.*q.var + truth_var(q, s);
-    if (replace_bias) {
-      if (!std::isfinite(s.*q.bias_var)) continue;
-      var += bias_std * bias_std - s.*q.bias_var;
-    }
+    const double var = s.*q.var + truth_var(q, s);
     if (std::isfinite(s.*q.error) && std::isfinite(var) && var > 0.0) sum.add(s.*q.error, var);
   }
   return sum.mean();
 }
 
-/// Median over drives of the mean squared ratio with that bias in place of the run's; 0 without any drive.
-double typical_nees(const Quantity& q, const std::vector<DriveSamples>& drives, double bias_std) {
+/// Median over drives of the scale's mean squared ratio with that bias in place of the run's; 0 without any drive.
+double typical_nees(const std::vector<DriveSamples>& drives, double bias_std) {
   std::vector<double> nees;
   for (const DriveSamples& drive : drives) {
-    const VarianceScore score = score_drive(q, drive, bias_std, true);
-    if (score.num > 0) nees.push_back(score.nees);
+    ScoreSum sum;
+    for (const Sample& s : drive.frames) {
+      const double var =
+          s.out_scale_var + truth_var(kScale, s) + bias_std * bias_std - s.out_scale_bias_var;
+      if (std::isfinite(s.out_scale_err) && std::isfinite(var) && var > 0.0)
+        sum.add(s.out_scale_err, var);
+    }
+    if (sum.mean().num > 0) nees.push_back(sum.mean().nees);
   }
   if (nees.empty()) return 0.0;
   const auto middle = nees.begin() + static_cast<std::ptrdiff_t>(nees.size() / 2);
@@ -65,25 +60,22 @@ double typical_nees(const Quantity& q, const std::vector<DriveSamples>& drives, 
 
 }  // namespace
 
-void fit_bias(const std::vector<DriveSamples>& drives, GroundModel* model) {
+void fit_scale_bias(const std::vector<DriveSamples>& drives, GroundModel* model) {
   if (drives.front().algorithm != "learned") return;
-  for (const Quantity& q : kQuantities) {
-    if (q.bias == nullptr) continue;
-    double low = 0.0;
-    double high = kLargestBiasStd;
-    for (int i = 0; i < kBisections && typical_nees(q, drives, 0.0) > 1.0; ++i) {
-      const double middle = 0.5 * (low + high);
-      (typical_nees(q, drives, middle) > 1.0 ? low : high) = middle;
-    }
-    model->bias.*q.bias = low;
+  double low = 0.0;
+  double high = kLargestBiasStd;
+  for (int i = 0; i < kBisections && typical_nees(drives, 0.0) > 1.0; ++i) {
+    const double middle = 0.5 * (low + high);
+    (typical_nees(drives, middle) > 1.0 ? low : high) = middle;
   }
+  model->ln_scale_bias_std = low;
 }
 
 std::vector<OutputScore> score_outputs(const std::vector<DriveSamples>& drives) {
   std::vector<OutputScore> scores;
   for (const Quantity& q : kQuantities) {
     for (const DriveSamples& drive : drives) {
-      OutputScore score{drive.drive, q.name, score_drive(q, drive, 0.0, false), 0.0, 0.0};
+      OutputScore score{drive.drive, q.name, score_drive(q, drive), 0.0, 0.0};
       if (score.score.num == 0) continue;
       double num = 0.0, error2 = 0.0, var = 0.0;
       for (const Sample& s : drive.frames) {

@@ -30,7 +30,8 @@ Json model_json(const GroundModel& model) {
 std::string to_text(const std::vector<HeldOutScore>& scores) {
   std::string text =
       "Held-out drives: mean squared error over variance (1 is right), and mean ln likelihood,\n"
-      "of a model that did not see the drive, and of the covariances set by hand\n";
+      "of a model that did not see the drive, and of the covariances set by hand (of the plane: "
+      "the filter's alone)\n";
   text += format("%-13s %-20s %5s  %-19s  %-19s\n", "error of", "drive", "n", "learned", "by hand");
   std::map<Target, std::array<double, 5>> means;
   for (const Target target : kTargets) {

@@ -97,10 +97,13 @@ void Sampler::add_cues(const GroundSight& sight, double ln_scale, const TruePlan
   reference.plane = plane;
   reference.normal_cam = plane != nullptr ? plane->normal_cam : normal_of_state(sight.state);
   if (plane == nullptr) reference.normal_cov = sight.cov.topLeftCorner<2, 2>();
-  sample->out_scale_bias_var = sight.bias.ln_scale_std * sight.bias.ln_scale_std;
-  sample->out_height_bias_var = sight.bias.ln_height_std * sight.bias.ln_height_std;
-  sample->out_pitch_bias_var = sight.bias.pitch_std_rad * sight.bias.pitch_std_rad;
-  sample->out_roll_bias_var = sight.bias.roll_std_rad * sight.bias.roll_std_rad;
+  sample->out_scale_bias_var = sight.ln_scale_bias_var;
+  sample->out_height_added_var = sight.plane_added.ln_height;
+  sample->out_pitch_added_var = sight.plane_added.pitch_rad2;
+  sample->out_roll_added_var = sight.plane_added.roll_rad2;
+  sample->out_dense_n1_square = sight.plane_context.dense_n1_square;
+  sample->out_dense_n3_square = sight.plane_context.dense_n3_square;
+  sample->out_travel_square = sight.plane_context.travel_square;
   write_dense(sight, reference, sample);
   write_points(sight, reference, sample);
   write_travel(sight, reference, sample);

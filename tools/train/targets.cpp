@@ -68,12 +68,31 @@ bool travel_row(const Sample& s, TargetRow* out) {
   return true;
 }
 
+bool plane_row(Target target, const Sample& s, TargetRow* out) {
+  const bool roll = target == Target::kPlaneRoll;
+  const CueFeatures f =
+      roll ? plane_features(s.out_dense_n1_square, 0.0, s.turn_ratio, s.step_ratio)
+           : plane_features(s.out_dense_n3_square, s.out_travel_square, s.turn_ratio, s.step_ratio);
+  const auto row = [&f](double error, double var, double added) {
+    return VarianceRow{error, var - added, 1.0, f};
+  };
+  out->row = roll ? row(s.out_roll_err, s.out_roll_var, s.out_roll_added_var)
+             : target == Target::kPlanePitch
+                 ? row(s.out_pitch_err, s.out_pitch_var, s.out_pitch_added_var)
+                 : row(s.out_height_err, s.out_height_var, s.out_height_added_var);
+  return true;
+}
+
 bool row_of(Target target, const Sample& s, const GroundModel& model, TargetRow* out) {
   switch (target) {
     case Target::kPoints:
       return points_row(s, out);
     case Target::kTravel:
       return travel_row(s, out);
+    case Target::kPlanePitch:
+    case Target::kPlaneRoll:
+    case Target::kPlaneHeight:
+      return plane_row(target, s, out);
     default:
       return dense_row(target, s, model, out);
   }
@@ -81,14 +100,18 @@ bool row_of(Target target, const Sample& s, const GroundModel& model, TargetRow*
 
 }  // namespace
 
+bool is_plane(Target target) { return target >= Target::kPlanePitch; }
+
 const char* target_name(Target target) {
-  constexpr std::array<const char*, 5> kNames{"dense_height", "dense_n1", "dense_n3", "points",
-                                              "travel"};
+  constexpr std::array<const char*, kTargets.size()> kNames{
+      "dense_height", "dense_n1",    "dense_n3",   "points",
+      "travel",       "plane_pitch", "plane_roll", "plane_height"};
   return kNames[static_cast<std::size_t>(target)];
 }
 
 std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive, const GroundModel& model) {
   std::vector<TargetRow> rows;
+  if (is_plane(target) && drive.algorithm != "learned") return rows;
   for (const Sample& s : drive.frames) {
     TargetRow row;
     if (!row_of(target, s, model, &row)) continue;
@@ -106,14 +129,16 @@ std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive, const G
 }
 
 LogVariance& model_of(Target target, GroundModel* model) {
-  LogVariance* const kModels[] = {&model->dense_height, &model->dense_n1, &model->dense_n3,
-                                  &model->points, &model->travel};
+  LogVariance* const kModels[] = {&model->dense_height, &model->dense_n1,    &model->dense_n3,
+                                  &model->points,       &model->travel,      &model->plane_pitch,
+                                  &model->plane_roll,   &model->plane_height};
   return *kModels[static_cast<std::size_t>(target)];
 }
 
 const LogVariance& model_of(Target target, const GroundModel& model) {
-  const LogVariance* const kModels[] = {&model.dense_height, &model.dense_n1, &model.dense_n3,
-                                        &model.points, &model.travel};
+  const LogVariance* const kModels[] = {&model.dense_height, &model.dense_n1,    &model.dense_n3,
+                                        &model.points,       &model.travel,      &model.plane_pitch,
+                                        &model.plane_roll,   &model.plane_height};
   return *kModels[static_cast<std::size_t>(target)];
 }
 
@@ -124,6 +149,11 @@ SlopePrior prior_of(Target target) {
       return {{0.7, 0.5, 1.5, 0.5}, {0.5, 0.5, 0.7, 0.7}};
     case Target::kTravel:
       return {{0.0, 0.0, 0.5, 0.5}, {0.0, 0.0, 0.7, 0.7}};
+    case Target::kPlaneRoll:
+      return {{0.5, 0.0, 0.5, 0.5}, {0.7, 0.0, 0.7, 0.7}};
+    case Target::kPlanePitch:
+    case Target::kPlaneHeight:
+      return {{0.5, 0.5, 0.5, 0.5}, {0.7, 0.7, 0.7, 0.7}};
     default:
       return {{0.3, 4.0, 1.5, 0.5}, {0.3, 1.0, 0.7, 0.7}};
   }
@@ -131,6 +161,9 @@ SlopePrior prior_of(Target target) {
 
 VarianceBounds bounds_of(Target target) {
   if (target == Target::kDenseHeight || target == Target::kPoints) return {0.003, 0.6};
+  // A cue that sees no road at all disputes without bound; what is reported errs less than this all the same.
+  if (target == Target::kPlaneHeight) return {0.0005, 0.15};
+  if (is_plane(target)) return {0.0001, 0.03};
   return {0.0007, 0.17};
 }
 

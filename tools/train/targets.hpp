@@ -1,4 +1,4 @@
-/// What is learned: five errors of the cues, each with its features, taken out of samples.
+/// What is learned: errors of the cues and of the reported plane, each with its features, taken out of samples.
 #pragma once
 
 #include <array>
@@ -9,15 +9,29 @@
 
 namespace plumb {
 
-enum class Target : std::size_t { kDenseHeight = 0, kDenseN1, kDenseN3, kPoints, kTravel };
-inline constexpr std::array<Target, 5> kTargets{Target::kDenseHeight, Target::kDenseN1,
-                                                Target::kDenseN3, Target::kPoints, Target::kTravel};
+enum class Target : std::size_t {
+  kDenseHeight = 0,
+  kDenseN1,
+  kDenseN3,
+  kPoints,
+  kTravel,
+  kPlanePitch,
+  kPlaneRoll,
+  kPlaneHeight
+};
+inline constexpr std::array<Target, 8> kTargets{
+    Target::kDenseHeight, Target::kDenseN1,    Target::kDenseN3,   Target::kPoints,
+    Target::kTravel,      Target::kPlanePitch, Target::kPlaneRoll, Target::kPlaneHeight};
+/// What is reported beside the filter's own variances. They follow from a model of the cues: samples must come from it.
+inline constexpr std::array<Target, 3> kPlaneTargets{Target::kPlanePitch, Target::kPlaneRoll,
+                                                     Target::kPlaneHeight};
 
+[[nodiscard]] bool is_plane(Target target);
 [[nodiscard]] const char* target_name(Target target);
 
 struct TargetRow {
   VarianceRow row;
-  double hand_var = 0.0;  ///< of FloorCovariance
+  double hand_var = 0.0;  ///< of FloorCovariance; of the plane: nothing beside the filter
   double seq = 0.0;
   double step_ratio = 0.0;
   bool direct =
@@ -26,7 +40,7 @@ struct TargetRow {
 
 /// Rows of one drive, weighted so that a long drive counts for more than a short one, but not in proportion: its frames
 /// are alike. Of `model`, dense_height (already fitted) serves frames without a true plane: there the error of the
-/// height is nearly all tilt times slope.
+/// height is nearly all tilt times slope. The plane's rows come from samples of "learned" runs only.
 [[nodiscard]] std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
                                              const GroundModel& model);
 
