@@ -13,4 +13,6 @@ inline constexpr double kDegree = std::numbers::pi / 180.0;
 /// Radians to degrees.
 constexpr double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
+constexpr double square(double x) { return x * x; }
+
 }  // namespace plumb

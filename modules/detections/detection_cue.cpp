@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "modules/detections/foot_point.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -24,8 +25,6 @@ constexpr double kMostMixtureResidual = 0.25;  ///< share of the amplitude
 HeightFilter::Prior filter_prior(const DetectionsConfig& config) {
   return {config.mean_pitch_rad, config.pitch_std_rad, config.pitch_time_s, kLogHeightRateStd};
 }
-
-double square(double x) { return x * x; }
 
 /// Boxes of a detector that does not track keep nothing; any number below -1 is theirs.
 std::int32_t track_or_own_id(const Detection& detection, std::size_t index) {

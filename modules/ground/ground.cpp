@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "modules/ground/cue_covariance.hpp"
+#include "modules/ground/cue_report.hpp"
 #include "modules/ground/dense_cue.hpp"
 #include "modules/ground/ego_motion.hpp"
 #include "modules/ground/ground_sight.hpp"
@@ -51,10 +52,6 @@ std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
 
 }  // namespace
 
-CueObservation absent_cue() {
-  return {CueStatus::kAbsent, kNan, kNan, kNan, kNan, kNan, kNan, 0.0, {}, 0};
-}
-
 double camera_height_of(const GroundConfig& config, const CameraModel& camera) {
   return camera.camera_height_m > 0.0 ? camera.camera_height_m : config.camera_height_m;
 }
@@ -78,7 +75,6 @@ struct GroundEstimator::Impl {
   void fuse();
   void fuse_objects(const GroundInput& input);
   void start_filter();
-  void write_cues();
   void write_plane(const VoOutput& vo, bool has_image);
   void write_height();
   [[nodiscard]] GroundReason reason_held(const VoOutput& vo, bool has_image) const;
@@ -105,8 +101,6 @@ struct GroundEstimator::Impl {
     double height = 0.0;                                    ///< expected [vo]
     double var_before = 0.0;                                ///< of ln h, before the cues
     bool predicted = false;  ///< the filter has gone on to this image
-    ObjectNormal objects;
-    CueStatus objects_status = CueStatus::kAbsent;
 
     [[nodiscard]] bool height_measured() const {
       return dense_status == CueStatus::kUsed || points_status == CueStatus::kUsed;
@@ -146,7 +140,8 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   m.frame.plane_context = m.dissent.context();
   m.frame.plane_added = m.covariance->plane(m.dissent.context());
   m.frame.ln_scale_bias_var = m.scale_bias_var;
-  m.write_cues();
+  m.out.plane = PlaneOutput{};
+  m.out.plane.cues = observations_of(m.frame, *m.covariance);
   m.write_plane(vo, m.frame.image != nullptr);
   probe.mark("fuse");
   const Eigen::Vector3d normal =
@@ -320,43 +315,10 @@ void GroundEstimator::Impl::fuse() {
 void GroundEstimator::Impl::fuse_objects(const GroundInput& input) {
   if (input.objects.empty()) return;
   frame.objects = input.objects.front();
-  frame.objects_status = CueStatus::kAbsent;
   if (!filter.started() || !frame.predicted) return;
   const double var = covariance->objects_repetition() * frame.objects.n3_var;
   const bool taken = filter.observe_pitch(frame.objects.n3, var);
   frame.objects_status = taken ? CueStatus::kUsed : CueStatus::kGated;
-}
-
-void GroundEstimator::Impl::write_cues() {
-  out.plane = PlaneOutput{};
-  out.plane.cues.fill(absent_cue());
-  CueObservation& dense = out.plane.cues[kCueDense];
-  dense.status = frame.dense_status;
-  if (frame.dense.ok) {
-    const Eigen::Vector3d state = state_of_plane(frame.dense.q);
-    const Eigen::Matrix3d cov = covariance->dense(frame.dense, frame.context);
-    const double height = std::exp(state(2));
-    dense = {
-        frame.dense_status,          height,    state(0),  state(1),
-        height * height * cov(2, 2), cov(0, 0), cov(1, 1), covariance->dense_quality(frame.dense)};
-  }
-  CueObservation& objects = out.plane.cues[kCueObjects];
-  objects.status = frame.objects_status;
-  if (frame.objects_status != CueStatus::kAbsent) {
-    objects.n3 = frame.objects.n3;
-    objects.n3_var = frame.objects.n3_var;
-    objects.quality = frame.objects.quality;
-    objects.features = {frame.objects.belief};
-    objects.num_features = 1;
-  }
-  CueObservation& points = out.plane.cues[kCuePoints];
-  points.status = frame.points_status;
-  if (frame.points.ok) {
-    points.height = std::exp(frame.points.ln_height);
-    points.height_var =
-        points.height * points.height * covariance->points(frame.points, frame.context);
-    points.quality = covariance->points_quality(frame.points);
-  }
 }
 
 /// height_m (write_height): the heights that this frame's cues saw, weighted and seen along the fused normal,

@@ -21,6 +21,8 @@ struct GroundSight {
   PointsObservation points;
   CueStatus dense_status = CueStatus::kAbsent;
   CueStatus points_status = CueStatus::kAbsent;
+  ObjectNormal objects;
+  CueStatus objects_status = CueStatus::kAbsent;
 
   bool filter_started = false;                      ///< the two below hold
   Eigen::Vector3d state = Eigen::Vector3d::Zero();  ///< of the filter, this frame's cues in it

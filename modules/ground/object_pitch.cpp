@@ -17,8 +17,6 @@ bool tells_rotation(VoStatus status) {
          status == VoStatus::kCoasting || status == VoStatus::kStandstill;
 }
 
-double square(double x) { return x * x; }
-
 }  // namespace
 
 ObjectPitch::ObjectPitch(const GroundConfig& config, const DetectionsConfig& detections,

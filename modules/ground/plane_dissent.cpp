@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "modules/ground/plane_filter.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
 
 // About the length of road that the cues look at.
 constexpr double kDissentMemoryRatio = 5.0;
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

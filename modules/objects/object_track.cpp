@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "modules/detections/box_screen.hpp"
+#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -38,8 +39,6 @@ constexpr double kEvidenceRate = 10.0;  ///< [1/s] the most that boxes can say, 
 constexpr double kReseedLogOdds = -6.0;
 constexpr double kReseedSigmas2 = 6.0;
 constexpr double kReseedSpeedStd = 3.0;  ///< [m/s]
-
-double square(double x) { return x * x; }
 
 /// In [-pi, pi].
 double wrapped(double angle_rad) {
