@@ -28,7 +28,7 @@ struct ObjectsConfig {
   double unknown_height_m = 1.60;
   double unknown_height_std_m = 0.50;
 
-  double contact_inset_m = 0.20;
+  double contact_inset_m = 0.40;
   double contact_inset_std_m = 0.20;
   double side_std_m = 0.10;
   double accel_std_m_s2 = 2.5;
