@@ -25,6 +25,8 @@ class FixedQueue {
   [[nodiscard]] const T& front() const { return items_[first_]; }
   [[nodiscard]] T& back() { return items_[(first_ + size_ - 1) % N]; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] bool full() const { return size_ == N; }
+  void clear() { size_ = 0; }
 
  private:
   std::array<T, N> items_{};

@@ -75,8 +75,9 @@ const char* ObjectsNode::pair(const ground_plane_t& plane, const ego_motion_t& e
   ground.reset_counter = output_.ego.reset_counter;
   ground.T_world_cam = output_.ego.T_world_cam;
   // Planes come in order: one that did not come before this one was lost.
-  while (waiting() && oldest().capture_us <= ground.capture_us) {
-    const bool same = oldest().seq == ground.seq && oldest().capture_us == ground.capture_us;
+  while (waiting() && waiting_.front().capture_us <= ground.capture_us) {
+    const DetectionFrame& oldest = waiting_.front();
+    const bool same = oldest.seq == ground.seq && oldest.capture_us == ground.capture_us;
     process_oldest(same ? &ground : nullptr);
   }
   return nullptr;
@@ -95,14 +96,14 @@ const char* ObjectsNode::take_detections(const detections_t& message) {
     process(arrived_, ground);
     return nullptr;
   }
-  if (num_waiting_ == kMaxWaiting) process_oldest(nullptr);
-  waiting_[(first_waiting_ + num_waiting_++) % kMaxWaiting] = arrived_;
+  if (waiting_.full()) process_oldest(nullptr);
+  (void)waiting_.push(arrived_);
   return nullptr;
 }
 
 void ObjectsNode::begin_anew() {
   kept_.fill({});
-  num_waiting_ = 0;
+  waiting_.clear();
   any_taken_ = any_processed_ = false;
   tracker_.emplace(detections_, objects_, camera_);
 }
@@ -112,10 +113,8 @@ void ObjectsNode::expire() {
 }
 
 void ObjectsNode::process_oldest(const Ground* ground) {
-  const DetectionFrame& frame = oldest();
-  first_waiting_ = (first_waiting_ + 1) % kMaxWaiting;
-  --num_waiting_;
-  process(frame, ground);
+  process(waiting_.front(), ground);
+  waiting_.drop_front();
 }
 
 const ObjectsNode::Ground* ObjectsNode::find(std::int64_t seq, std::int64_t capture_us) const {

@@ -20,6 +20,7 @@
 #include "modules/imaging/image_wire.hpp"
 #include "modules/objects/objects.hpp"
 #include "modules/objects/objects_wire.hpp"
+#include "platform/fixed_queue.hpp"
 
 namespace plumb {
 
@@ -41,7 +42,7 @@ class ObjectsNode {
   void expire();
 
   [[nodiscard]] bool calibrated() const { return tracker_.has_value(); }
-  [[nodiscard]] bool waiting() const { return num_waiting_ > 0; }
+  [[nodiscard]] bool waiting() const { return !waiting_.empty(); }
 
  private:
   /// What is kept of one image.
@@ -61,7 +62,6 @@ class ObjectsNode {
   void process(const DetectionFrame& frame, const Ground* ground);
   void process_oldest(const Ground* ground);
   void begin_anew();
-  [[nodiscard]] const DetectionFrame& oldest() const { return waiting_[first_waiting_]; }
 
   DetectionsConfig detections_;
   ObjectsConfig objects_;
@@ -77,9 +77,7 @@ class ObjectsNode {
   bool has_ego_ = false;
   GroundOutput output_;
   DetectionFrame arrived_;
-  std::array<DetectionFrame, kMaxWaiting> waiting_{};  ///< a ring, oldest first
-  std::size_t first_waiting_ = 0;
-  std::size_t num_waiting_ = 0;
+  FixedQueue<DetectionFrame, kMaxWaiting> waiting_;
   std::int64_t newest_plane_us_ = 0;
   bool any_taken_ = false;
   std::int64_t newest_us_ = 0;  ///< of the detections taken last
