@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/ground/plane_angles.hpp"
+#include "modules/detections/road_plane.hpp"
 #include "platform/numbers.hpp"
 
 namespace plumb {
@@ -99,7 +99,8 @@ bool ObjectPitch::observe(const Place& place, const DetectionFrame& frame) {
   if (seen.status != DetectionCueStatus::kHolds) return false;
 
   const double pitch = std::asin(std::clamp(seen.n3, -1.0, 1.0));
-  const Eigen::Vector3d normal = place.R_newest_place * normal_from_angles(pitch, input.roll_rad);
+  const Eigen::Vector3d normal =
+      place.R_newest_place * RoadPlane{pitch, input.roll_rad}.normal_cam();
   normal_.n3 = normal.z();
   normal_.belief = seen.n3_var;
   normal_.n3_var = (adapts_ ? model_.of(seen.n3_var) : model_.mean) +

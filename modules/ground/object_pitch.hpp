@@ -5,14 +5,13 @@
 ///          between the pitch turns with the camera, by VO's rotation.
 /// Feedback objects learn their heights from the dense cue's pitch of their own image, never from the filter that this
 ///          cue enters.
-/// Frames   cam, as plane_angles.hpp.
+/// Frames   cam, as road_plane.hpp.
 /// Source   Song and Chandraker, CVPR 2014: eq. (9), (10) (detection_cue.hpp); model C_d of Algorithm 1.
 /// Memory   kMaxWaiting frames of detections and a DetectionCue in place, 500 kB; nothing grows.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "modules/detections/detection_cue.hpp"

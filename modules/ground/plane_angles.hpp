@@ -35,11 +35,6 @@ namespace plumb {
   return J;
 }
 
-[[nodiscard]] inline Eigen::Vector3d normal_from_angles(double pitch_rad, double roll_rad) {
-  const double across = std::cos(pitch_rad);
-  return {across * std::sin(roll_rad), across * std::cos(roll_rad), std::sin(pitch_rad)};
-}
-
 /// Ground axes in which the camera looks along x: yaw is zero by definition.
 [[nodiscard]] inline Eigen::Matrix3d rotation_ground_cam(const Eigen::Vector3d& normal_cam) {
   const Eigen::Vector3d up = -normal_cam;

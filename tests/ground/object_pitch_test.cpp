@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "modules/ground/plane_angles.hpp"
 #include "tests/detections/road_scene.hpp"
 #include "tests/support/count_malloc.hpp"
 

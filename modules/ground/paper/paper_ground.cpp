@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/detections/road_plane.hpp"
 #include "modules/ground/ego_motion.hpp"
 #include "modules/ground/paper/cue_fusion.hpp"
 #include "modules/ground/paper/image_keeper.hpp"
@@ -29,7 +30,7 @@ struct PaperGround::Impl {
         camera(camera_in),
         model(model_in),
         height_m(camera_height_of(config, camera)),
-        normal_calibrated(normal_from_angles(config.paper.pitch_rad, config.paper.roll_rad)),
+        normal_calibrated(RoadPlane{config.paper.pitch_rad, config.paper.roll_rad}.normal_cam()),
         box(region_of(camera, config.paper.region_width_ratio, config.paper.region_height_ratio)),
         images(camera.width_px, camera.height_px),
         dense_cue(camera, box, config.paper.rho),
