@@ -9,6 +9,8 @@
 
 namespace plumb {
 
+inline constexpr double kClose_m = 10.0;  ///< and nearer is close, as in the paper's section 6.4
+
 /// Labels with a 3D box, of one of `classes`, whole in the image and at most partly hidden.
 [[nodiscard]] bool is_evaluated(const TrackingRow& row, const std::vector<ObjectClass>& classes);
 

@@ -16,7 +16,6 @@
 namespace plumb {
 namespace {
 
-constexpr double kClose_m = 10.0;
 constexpr double kFramePeriod_s = 0.1;
 constexpr double kRollStd = 0.01;
 constexpr double kHeightStd = 0.01;

@@ -6,17 +6,17 @@
 
 #include "platform/input_error.hpp"
 #include "platform/text.hpp"
+#include "tools/objects_eval/label_choice.hpp"
 #include "tools/support/statistics.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr double kClosest_m = 10.0;  ///< and nearer is close
 constexpr double kStanding_m_s =
     1.0;  ///< labels and poses of a real parked car wander by half of it
 
 bool counts(const PlacementSample& sample, Range range, Motion motion) {
-  if ((sample.truth_m <= kClosest_m) != (range == Range::kClose)) return false;
+  if ((sample.truth_m <= kClose_m) != (range == Range::kClose)) return false;
   if (motion == Motion::kAny) return true;
   if (!std::isfinite(sample.speed_m_s)) return false;
   return (sample.speed_m_s < kStanding_m_s) == (motion == Motion::kStanding);
