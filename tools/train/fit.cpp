@@ -142,7 +142,7 @@ std::vector<HeldOutScore> leave_one_out(const std::vector<DriveSamples>& drives,
   return scores;
 }
 
-std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives, GroundModel* model) {
+std::vector<BeliefFit> fit_paper(const std::vector<DriveSamples>& drives, GroundModel* model) {
   struct Line {
     const char* name;
     double Sample::*belief;
@@ -154,7 +154,7 @@ std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives, GroundM
       {"n1", &Sample::paper_width_n1, &Sample::paper_err_n1, &model->paper.dense_n1},
       {"n3", &Sample::paper_width_n3, &Sample::paper_err_n3, &model->paper.dense_n3},
       {"points h", &Sample::paper_vote, &Sample::paper_err_points, &model->paper.points_h}};
-  std::vector<PaperFit> fits;
+  std::vector<BeliefFit> fits;
   for (const Line& line : lines) {
     std::vector<Belief> beliefs;
     for (const DriveSamples& drive : drives) {
@@ -163,7 +163,7 @@ std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives, GroundM
         if (std::isfinite(belief.belief) && std::isfinite(belief.error)) beliefs.push_back(belief);
       }
     }
-    PaperFit fit{line.name, bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
+    BeliefFit fit{line.name, bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
     if (fit.bins.size() < 2) continue;
     fit.line = *line.line = fit_line(fit.bins);
     fits.push_back(std::move(fit));
@@ -171,7 +171,7 @@ std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives, GroundM
   return fits;
 }
 
-std::optional<PaperFit> fit_objects(const std::vector<DriveSamples>& drives, GroundModel* model) {
+std::optional<BeliefFit> fit_objects(const std::vector<DriveSamples>& drives, GroundModel* model) {
   const auto seen = [](const Sample& s) { return std::isfinite(s.objects_err_n3); };
   std::vector<Belief> beliefs;
   for (const DriveSamples& drive : drives) {
@@ -179,7 +179,7 @@ std::optional<PaperFit> fit_objects(const std::vector<DriveSamples>& drives, Gro
       if (seen(s)) beliefs.push_back({s.objects_belief, s.objects_err_n3});
   }
   if (beliefs.size() < kFewestRows) return std::nullopt;
-  PaperFit fit{"objects n3", bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
+  BeliefFit fit{"objects n3", bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
   fit.line = model->objects_n3 = fit_line(fit.bins);
   std::vector<std::vector<TimedError>> errors;
   for (const DriveSamples& drive : drives) {

@@ -22,19 +22,20 @@ namespace plumb {
 /// "learned" leave it as it is.
 void fit_scale_bias(const std::vector<DriveSamples>& drives, GroundModel* model);
 
-/// The published method's lines (algorithm "paper").
-struct PaperFit {
+/// A line that tells a variance by one belief, and what it was drawn through.
+struct BeliefFit {
   const char* name = "";
   std::vector<BeliefBin> bins;
   LinearVariance line;
 };
-[[nodiscard]] std::vector<PaperFit> fit_paper(const std::vector<DriveSamples>& drives,
-                                              GroundModel* model);
+/// The published method's lines (algorithm "paper").
+[[nodiscard]] std::vector<BeliefFit> fit_paper(const std::vector<DriveSamples>& drives,
+                                               GroundModel* model);
 
 /// Model C_d of Algorithm 1, objects_n3 and objects_repetition: out of the samples of drives with detections and true
 /// planes; without any, null and the model stays.
-[[nodiscard]] std::optional<PaperFit> fit_objects(const std::vector<DriveSamples>& drives,
-                                                  GroundModel* model);
+[[nodiscard]] std::optional<BeliefFit> fit_objects(const std::vector<DriveSamples>& drives,
+                                                   GroundModel* model);
 
 /// One frame's error over its deviation.
 struct TimedError {

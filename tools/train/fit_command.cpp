@@ -73,7 +73,9 @@ void fit_learned(const FitCommand& command, const std::vector<DriveSamples>& all
   const auto targets = command.plane_only ? std::span<const Target>(kPlaneTargets) : kTargets;
   if (all.size() > 1) report->held_out = leave_one_out(all, start, targets);
   report->model = fit_targets(drives, start, targets);
-  if (!command.plane_only) fit_scale_bias(drives, &report->model);
+  if (command.plane_only) return;
+  fit_scale_bias(drives, &report->model);
+  report->objects = fit_objects(drives, &report->model);
 }
 
 }  // namespace
@@ -107,7 +109,6 @@ int run_fit_command(const FitCommand& command) {
   } else {
     fit_learned(command, all, drives, &report);
     std::cout << to_text(report.held_out);
-    report.objects = fit_objects(drives, &report.model);
     if (report.objects) std::cout << to_text({*report.objects});
   }
   report.outputs = score_outputs(all);

@@ -44,7 +44,7 @@ Plot calibration_plot(Target target, const std::vector<DriveSamples>& drives,
           true};
 }
 
-Plot belief_plot(const PaperFit& fit) {
+Plot belief_plot(const BeliefFit& fit) {
   Curve bins{"bins of equal count", {}, {}, true}, line{"line", {}, {}, false};
   for (const BeliefBin& bin : fit.bins) {
     bins.x.push_back(bin.centre);
@@ -75,7 +75,7 @@ std::vector<fs::path> draw_fit(const std::vector<DriveSamples>& drives, const Fi
     draw({plot}, files.back());
   }
   std::vector<Plot> beliefs;
-  for (const PaperFit& fit : report.paper) beliefs.push_back(belief_plot(fit));
+  for (const BeliefFit& fit : report.paper) beliefs.push_back(belief_plot(fit));
   if (!beliefs.empty()) {
     files.push_back(folder / ("paper_beliefs." + format));
     draw(beliefs, files.back());

@@ -67,9 +67,9 @@ std::string to_text(const std::vector<OutputScore>& scores) {
   return text;
 }
 
-std::string to_text(const std::vector<PaperFit>& fits) {
+std::string to_text(const std::vector<BeliefFit>& fits) {
   std::string text = "Lines by belief: variance = offset + slope * belief\n";
-  for (const PaperFit& fit : fits) {
+  for (const BeliefFit& fit : fits) {
     text += format("  %-9s %4zu bins  offset %.4g  slope %.4g  [%.4g, %.4g]  mean %.4g\n", fit.name,
                    fit.bins.size(), fit.line.offset, fit.line.slope, fit.line.least, fit.line.most,
                    fit.line.mean);

@@ -14,13 +14,13 @@ struct FitReport {
   GroundModel model;
   std::vector<HeldOutScore> held_out;
   std::vector<OutputScore> outputs;
-  std::vector<PaperFit> paper;
-  std::optional<PaperFit> objects;
+  std::vector<BeliefFit> paper;
+  std::optional<BeliefFit> objects;
 };
 
 [[nodiscard]] std::string to_text(const std::vector<HeldOutScore>& scores);
 [[nodiscard]] std::string to_text(const std::vector<OutputScore>& scores);
-[[nodiscard]] std::string to_text(const std::vector<PaperFit>& fits);
+[[nodiscard]] std::string to_text(const std::vector<BeliefFit>& fits);
 
 /// Throws InputError when `path` cannot be written.
 void write_json(const FitReport& report, const std::filesystem::path& path);
