@@ -22,7 +22,9 @@ constexpr double kDenseLnHeightFloorStd = 0.03;
 constexpr double kPointsLnHeightStd = 0.04;
 constexpr double kPointsHalfTrust =
     10.0;  // inliers at which the variance has halved towards its floor
-constexpr double kTravelStd = 0.3 * kDegree;
+constexpr double kTravelStd = 0.15 * kDegree;
+// A parabola seen between 5.5 and 20 m, against the car's last few metres.
+constexpr RoadBend kRoadBend{0.3 * kDegree, 8.0, 2.5};
 // Below this correlation noise rules the picture, or part of it is not road: variances grow with its fourth power.
 constexpr double kSureCorrelation = 0.8;
 // Images nearer together than this see the same road again; their errors are the same errors.
@@ -99,6 +101,8 @@ double FloorCovariance::points_repetition(const CueContext& context) const {
 }
 
 double FloorCovariance::objects_repetition() const { return kObjectsRepetition; }
+
+RoadBend FloorCovariance::road_bend() const { return kRoadBend; }
 
 double FloorCovariance::dense_quality(const DenseObservation& dense) const {
   return dense.ok ? std::clamp(dense.ncc, 0.0, 1.0) : 0.0;

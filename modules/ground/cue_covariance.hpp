@@ -8,6 +8,7 @@
 #include "modules/ground/dense_cue.hpp"
 #include "modules/ground/ground_model.hpp"
 #include "modules/ground/points_cue.hpp"
+#include "modules/ground/road_bend.hpp"
 #include "modules/ground/travel.hpp"
 
 namespace plumb {
@@ -43,7 +44,7 @@ class CueCovariance {
   /// Of ln(n . centre). @pre points.ok
   [[nodiscard]] virtual double points(const PointsObservation& points,
                                       const CueContext& context) const = 0;
-  /// Of n . direction. @pre travel.valid
+  /// Of n . direction under the car. @pre travel.valid
   [[nodiscard]] virtual double travel(const Travel& travel, const CueContext& context) const = 0;
   /// How many neighbouring images share one independent error of the height, at least 1: a filter over images takes its
   /// variance that many times. The tilt's is taken once: a car pitches on from image to image, and a filter that trusts
@@ -52,6 +53,7 @@ class CueCovariance {
   [[nodiscard]] virtual double points_repetition(const CueContext& context) const = 0;
   /// The same for the pitch of detected objects: their heights and the road under them change slowly.
   [[nodiscard]] virtual double objects_repetition() const = 0;
+  [[nodiscard]] virtual RoadBend road_bend() const = 0;
   /// Belief in [0, 1], for display and for the least quality that enters the fusion.
   [[nodiscard]] virtual double dense_quality(const DenseObservation& dense) const = 0;
   [[nodiscard]] virtual double points_quality(const PointsObservation& points) const = 0;
@@ -73,6 +75,7 @@ class FloorCovariance final : public CueCovariance {
   [[nodiscard]] double dense_repetition(const CueContext& context) const override;
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
   [[nodiscard]] double objects_repetition() const override;
+  [[nodiscard]] RoadBend road_bend() const override;
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
 };

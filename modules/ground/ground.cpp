@@ -63,7 +63,8 @@ struct GroundEstimator::Impl {
         ring(camera),
         dense_cue(ring.camera(), ring.num_levels()),
         covariance(make_covariance(config_in, model)),
-        scale_bias_var(covariance->ln_scale_bias_std() * covariance->ln_scale_bias_std()) {}
+        scale_bias_var(square(covariance->ln_scale_bias_std())),
+        filter(covariance->road_bend()) {}
 
   void take_image(const GroundInput& input);
   void follow_scale_epoch(const VoOutput& vo);
@@ -135,8 +136,8 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   m.fuse();
   m.fuse_objects(input);
   m.frame.filter_started = m.filter.started();
-  m.frame.state = m.filter.state();
-  m.frame.cov = m.filter.cov();
+  m.frame.state = m.filter.ahead();
+  m.frame.cov = m.filter.ahead_cov();
   m.frame.plane_context = m.dissent.context();
   m.frame.plane_added = m.covariance->plane(m.dissent.context());
   m.frame.ln_scale_bias_var = m.scale_bias_var;
@@ -191,7 +192,8 @@ bool GroundEstimator::Impl::prepare_plane(const VoOutput& vo) {
   if (vo.status != VoStatus::kOk || !frame.travel.valid) return false;
 
   const double n1 = filter.started() ? filter.state()(0) : 0.0;
-  frame.normal_cam = normal_across(frame.travel.direction, n1);
+  frame.normal_cam =
+      filter.sure() ? normal_of_state(filter.ahead()) : normal_across(frame.travel.direction, n1);
   if (filter.sure()) {
     frame.height = filter.height();
   } else {
@@ -307,7 +309,7 @@ void GroundEstimator::Impl::fuse() {
   }
   if (starts && frame.height_refused()) filter.forget();  // not the road: a truck's back, a mirror
   filter.end_frame(frame.height_measured(), frame.height_refused());
-  dissent.add(frame, filter.state());
+  dissent.add(frame, filter.ahead());
 }
 
 /// The last of the cues, so that the gate holds it against this frame's others. Not at rest: the same boxes again and
@@ -321,9 +323,9 @@ void GroundEstimator::Impl::fuse_objects(const GroundInput& input) {
   frame.objects_status = taken ? CueStatus::kUsed : CueStatus::kGated;
 }
 
-/// height_m (write_height): the heights that this frame's cues saw, weighted and seen along the fused normal,
-/// times the filtered scale. It equals the nominal camera height when the frame agrees with the
-/// filter, and differs with the road under the camera and with the cues' noise.
+/// The road ahead. height_m (write_height): the heights that this frame's cues saw, weighted and seen along the fused
+/// normal, times the filtered scale. It equals the nominal camera height when the frame agrees with the filter and the
+/// road is flat, and differs with the road's bend and with the cues' noise.
 void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
   PlaneOutput& plane = out.plane;
   if (vo.status == VoStatus::kLost) {
@@ -339,12 +341,12 @@ void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
   const bool measured = frame.height_measured();
   plane.status = measured ? GroundStatus::kOk : GroundStatus::kHeld;
   plane.reason = measured && has_image ? GroundReason::kNone : reason_held(vo, has_image);
-  plane.normal_cam = filter.normal();
+  plane.normal_cam = normal_of_state(filter.ahead());
   plane.pitch_rad = pitch_of(plane.normal_cam);
   plane.roll_rad = roll_of(plane.normal_cam);
 
   const Eigen::Matrix2d J = angles_jacobian(plane.normal_cam);
-  plane.cov.topLeftCorner<2, 2>() = J * filter.cov().topLeftCorner<2, 2>() * J.transpose();
+  plane.cov.topLeftCorner<2, 2>() = J * filter.ahead_cov().topLeftCorner<2, 2>() * J.transpose();
   plane.cov(0, 0) += frame.plane_added.pitch_rad2;
   plane.cov(1, 1) += frame.plane_added.roll_rad2;
   write_height();
@@ -352,14 +354,16 @@ void GroundEstimator::Impl::write_plane(const VoOutput& vo, bool has_image) {
 
 void GroundEstimator::Impl::write_height() {
   PlaneOutput& plane = out.plane;
-  const Eigen::Matrix3d& P = filter.cov();
-  plane.height_m = camera_height_m;
-  plane.cov(2, 2) = P(2, 2) + frame.plane_added.ln_height;
-  if (!frame.height_measured()) return;
-  const SeenHeight seen = see_height(frame, *covariance, filter.state());
-  const Eigen::RowVector3d g(seen.slope(0), seen.slope(1), -1.0);
-  plane.height_m *= std::exp(seen.ln_height - filter.state()(2));
-  plane.cov(2, 2) += seen.var + g * P * g.transpose() - P(2, 2);
+  const double ln_height_here = filter.state()(2);
+  if (!frame.height_measured()) {
+    plane.height_m = camera_height_m * std::exp(filter.ahead()(2) - ln_height_here);
+    plane.cov(2, 2) = filter.cov()(2, 2) + filter.ahead_var(Eigen::RowVector3d::UnitZ());
+  } else {
+    const SeenHeight seen = see_height(frame, *covariance, filter.ahead());
+    plane.height_m = camera_height_m * std::exp(seen.ln_height - ln_height_here);
+    plane.cov(2, 2) = seen.var + filter.ahead_var({seen.slope(0), seen.slope(1), 0.0});
+  }
+  plane.cov(2, 2) += frame.plane_added.ln_height;
 }
 
 GroundReason GroundEstimator::Impl::reason_held(const VoOutput& vo, bool has_image) const {

@@ -97,6 +97,7 @@ struct GroundInput {
   std::span<const ObjectNormal> objects = {};  ///< brought to the same image (object_pitch.hpp)
 };
 
+/// The plane of the road ahead (`GroundConfig::road_near_m` to `road_far_m`).
 struct PlaneOutput {
   GroundStatus status = GroundStatus::kInvalid;
   GroundReason reason = GroundReason::kNone;

@@ -11,10 +11,11 @@
 #include <string>
 
 #include "modules/ground/paper/paper_model.hpp"
+#include "modules/ground/road_bend.hpp"
 
 namespace plumb {
 
-inline constexpr int kGroundModelVersion = 3;
+inline constexpr int kGroundModelVersion = 4;
 inline constexpr std::size_t kNumCueFeatures = 4;
 using CueFeatures = std::array<double, kNumCueFeatures>;
 
@@ -75,7 +76,8 @@ struct GroundModel {
   LogVariance dense_n3;
   LogVariance dense_height;  ///< of ln h once the normal is known
   LogVariance points;        ///< of ln h once the normal is known
-  LogVariance travel;        ///< of n . direction
+  LogVariance travel;        ///< of n . direction, n of the road under the car
+  RoadBend bend;
   /// Way over which a cue's errors of the height stay alike, in camera heights.
   double dense_memory_ratio = 0.0;
   double points_memory_ratio = 0.0;

@@ -74,8 +74,16 @@ void GroundModel::visit(Model& m, Visit&& field) {
                      kDenseSlopes, m.dense_height, field);
   visit_log_variance("points", "ln variance of ln h, the normal known, usual frame", kPointsSlopes,
                      m.points, field);
-  visit_log_variance("travel", "ln variance of normal . direction of travel, usual frame",
+  visit_log_variance("travel",
+                     "ln variance of normal . direction of travel under the car, usual frame",
                      kTravelSlopes, m.travel, field);
+  field(
+      "bend.start_std", m.bend.start_std, 0.0, 0.2,
+      "1-sigma of the angle between the road ahead and the one under the car, until a drive tells");
+  field("bend.memory_ratio", m.bend.memory_ratio, 0.1, 1000.0,
+        "camera heights of way over which a bend stays alike");
+  field("bend.height_slope", m.bend.height_slope, 0.0, 10.0,
+        "ln height of the plane ahead per unit of that angle");
   field("memory.dense_ratio", m.dense_memory_ratio, 0.0, 1000.0,
         "camera heights of way over which the dense cue's errors stay alike");
   field("memory.points_ratio", m.points_memory_ratio, 0.0, 1000.0, "the same, points");

@@ -21,6 +21,7 @@ class LearnedCovariance final : public CueCovariance {
   [[nodiscard]] double dense_repetition(const CueContext& context) const override;
   [[nodiscard]] double points_repetition(const CueContext& context) const override;
   [[nodiscard]] double objects_repetition() const override { return model_.objects_repetition; }
+  [[nodiscard]] RoadBend road_bend() const override { return model_.bend; }
   [[nodiscard]] double dense_quality(const DenseObservation& dense) const override;
   [[nodiscard]] double points_quality(const PointsObservation& points) const override;
   [[nodiscard]] PlaneVariance plane(const PlaneContext& context) const override;

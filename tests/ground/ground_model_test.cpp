@@ -55,8 +55,8 @@ TEST(GroundModel, TextComesBackAsTheSameModel) {
 }
 
 TEST(GroundModel, FileThatDoesNotFitIsRefusedWithItsReason) {
-  EXPECT_NE(refusal("version = 3", "version = 2").find("model.toml:"), std::string::npos);
-  EXPECT_NE(refusal("version = 3", "version = 2").find("model.version = 2"), std::string::npos);
+  EXPECT_NE(refusal("version = 4", "version = 3").find("model.toml:"), std::string::npos);
+  EXPECT_NE(refusal("version = 4", "version = 3").find("model.version = 3"), std::string::npos);
   EXPECT_NE(refusal("plumb.ground_model", "other").find("model.schema"), std::string::npos);
   EXPECT_NE(refusal("[travel]\nln_var = ", "[travel]\nln_vars = ").find("travel.ln_var is missing"),
             std::string::npos);

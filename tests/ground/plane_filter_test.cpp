@@ -152,5 +152,99 @@ TEST(PlaneFilter, DeviationsMatchTheErrorsOfItsOwnModel) {
   EXPECT_LT(nees, 1.5);
 }
 
+constexpr RoadBend kBend{0.006, 6.0, 2.0};
+
+PlaneFilter started_on_bends() {
+  PlaneFilter filter(kBend);
+  filter.start(Eigen::Vector3d::UnitY(), 0.0);
+  return filter;
+}
+
+/// One frame straight on and level, under a road ahead that leaves the car's by `bend`.
+void drive_towards_bend(PlaneFilter* filter, double bend) {
+  filter->predict(Eigen::Matrix3d::Identity(), kStepRatio);
+  filter->observe_travel(Eigen::Vector3d::UnitZ(), 0.003 * 0.003);
+  const bool used = filter->observe_plane({0.0, bend, kBend.height_slope * bend}, plane_cov());
+  filter->end_frame(used, !used);
+}
+
+TEST(PlaneFilter, TellsTheRoadAheadFromTheRoadUnderTheCar) {
+  PlaneFilter filter = started_on_bends();
+  for (int k = 0; k < 80; ++k) drive_towards_bend(&filter, 0.02);
+  EXPECT_NEAR(filter.ahead()(1), 0.02, 0.002);
+  EXPECT_NEAR(filter.ahead()(2), 0.04, 0.005);
+  EXPECT_NEAR(filter.state()(1), 0.0, 0.002);
+  EXPECT_NEAR(filter.state()(2), 0.0, 0.005);  // scale hangs on this one
+}
+
+TEST(PlaneFilter, WithoutBendsBothPlanesAreOne) {
+  PlaneFilter filter = started(0.0);
+  for (int k = 0; k < 30; ++k) drive_frame(&filter, {0.0, 0.02, 0.04});
+  EXPECT_TRUE(filter.ahead().isApprox(filter.state(), 1e-12));
+  EXPECT_TRUE(filter.ahead_cov().isApprox(filter.cov(), 1e-12));
+}
+
+TEST(PlaneFilter, BelievesInBendsAsFarAsTheDriveHasShownThem) {
+  PlaneFilter flat = started_on_bends();
+  PlaneFilter hilly = started_on_bends();
+  for (int k = 0; k < 200; ++k) {
+    drive_towards_bend(&flat, 0.0);
+    drive_towards_bend(&hilly, 0.02 * std::sin(0.06 * k));  // 60 camera heights from crest to crest
+  }
+  const auto moved_by_one = [](PlaneFilter filter) {
+    const double before = filter.ahead()(1);
+    drive_towards_bend(&filter, before + 0.01);
+    return filter.ahead()(1) - before;
+  };
+  EXPECT_GT(moved_by_one(hilly), 1.5 * moved_by_one(flat));
+  EXPECT_GT(moved_by_one(flat), 0.0);
+}
+
+TEST(PlaneFilter, PlaneAheadVariesByTheBendUntilItIsSeen) {
+  PlaneFilter filter = started_on_bends();
+  const double bend_var = kBend.start_std * kBend.start_std;
+  EXPECT_NEAR(filter.ahead_cov()(1, 1) - filter.cov()(1, 1), bend_var, 1e-12);
+  EXPECT_NEAR(filter.ahead_var(Eigen::RowVector3d::UnitZ()), 4.0 * bend_var, 1e-12);
+  EXPECT_NEAR(filter.ahead_var(Eigen::RowVector3d::Zero()), filter.cov()(2, 2), 1e-12);
+}
+
+TEST(PlaneFilter, DeviationsMatchTheErrorsOfARoadThatBends) {
+  std::mt19937 random(21);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const double keep = std::exp(-kStepRatio / kBend.memory_ratio);
+  const double tilt = 0.13 * 0.017453292519943295;
+  double ahead_sum = 0.0, here_sum = 0.0;
+  int num = 0;
+  for (int run = 0; run < 60; ++run) {
+    Eigen::Vector4d truth = Eigen::Vector4d::Zero();
+    PlaneFilter filter = started_on_bends();
+    for (int k = 0; k < 60; ++k) {
+      truth += Eigen::Vector4d(tilt * normal(random), tilt * normal(random), 0.004 * normal(random),
+                               0.0);
+      truth(3) = keep * truth(3) + std::sqrt(1.0 - keep * keep) * kBend.start_std * normal(random);
+      const Eigen::Vector3d ahead(truth(0), truth(1) + truth(3),
+                                  truth(2) + kBend.height_slope * truth(3));
+      filter.predict(Eigen::Matrix3d::Identity(), kStepRatio);
+      const double slope = truth(1) + 0.003 * normal(random);
+      filter.observe_travel(Eigen::Vector3d(0.0, -slope, 1.0).normalized(), 0.003 * 0.003);
+      ASSERT_TRUE(filter.observe_plane(
+          ahead + Eigen::Vector3d(0.007 * normal(random), 0.007 * normal(random),
+                                  0.03 * normal(random)),
+          plane_cov()));
+      filter.end_frame(true, false);
+      if (k < 20) continue;
+      const Eigen::Vector3d e_ahead = filter.ahead() - ahead;
+      const Eigen::Vector3d e_here = filter.state() - truth.head<3>();
+      ahead_sum += e_ahead.dot(filter.ahead_cov().inverse() * e_ahead) / 3.0;
+      here_sum += e_here.dot(filter.cov().inverse() * e_here) / 3.0;
+      ++num;
+    }
+  }
+  EXPECT_GT(ahead_sum / num, 0.7);
+  EXPECT_LT(ahead_sum / num, 1.5);
+  EXPECT_GT(here_sum / num, 0.7);
+  EXPECT_LT(here_sum / num, 1.5);
+}
+
 }  // namespace
 }  // namespace plumb

@@ -5,9 +5,8 @@
 namespace plumb {
 namespace {
 
-// Without a true plane the road ahead is taken for a parabola: between 5.5 and 20 m its height follows the angle between
-// road and travel with this slope, and on drives with true planes the rest has this deviation.
-constexpr double kBendSlope = 2.5;
+// Without a true plane the height ahead follows the road's bend, and on drives with true planes the rest has this
+// deviation.
 constexpr double kBendRestStd = 0.011;
 constexpr double kLeastSlope = 2.0;  // of ln h against n3, for a height's error to tell a tilt
 
@@ -22,7 +21,9 @@ double reference_var(const Sample& s, double normal_part) {
 }
 
 /// Without a true plane, the height ahead is the nominal one and what the road's bend adds.
-double bend_of(const Sample& s) { return s.has_plane > 0.5 ? 0.0 : kBendSlope * s.travel_ref; }
+double bend_of(const Sample& s, const GroundModel& model) {
+  return s.has_plane > 0.5 ? 0.0 : model.bend.height_slope * s.travel_ref;
+}
 
 CueFeatures features(const Sample& s, double pixel_var) {
   return dense_features(pixel_var, s.dense_ncc, s.turn_ratio, s.step_ratio);
@@ -32,7 +33,7 @@ bool dense_row(Target target, const Sample& s, const GroundModel& model, TargetR
   if (!(s.dense_used > 0.5)) return false;
   VarianceRow& row = out->row;
   if (target == Target::kDenseHeight) {
-    row = {s.dense_err_given - bend_of(s), reference_var(s, s.dense_given_ref_var), 1.0,
+    row = {s.dense_err_given - bend_of(s, model), reference_var(s, s.dense_given_ref_var), 1.0,
            features(s, s.dense_pixel_var_given)};
     out->hand_var = s.dense_hand_var_given;
   } else if (target == Target::kDenseN1) {
@@ -45,7 +46,7 @@ bool dense_row(Target target, const Sample& s, const GroundModel& model, TargetR
     if (!(std::abs(s.dense_slope_n3) > kLeastSlope)) return false;
     const double given = model.dense_height.of(features(s, s.dense_pixel_var_given));
     const double per_tilt = 1.0 / s.dense_slope_n3;
-    row = {(s.dense_err_height - bend_of(s)) * per_tilt,
+    row = {(s.dense_err_height - bend_of(s, model)) * per_tilt,
            (given + reference_var(s, 0.0)) * per_tilt * per_tilt, 1.0,
            features(s, s.dense_pixel_var_n3)};
     out->hand_var = s.dense_hand_var_n3;
@@ -54,16 +55,22 @@ bool dense_row(Target target, const Sample& s, const GroundModel& model, TargetR
   return true;
 }
 
-bool points_row(const Sample& s, TargetRow* out) {
+bool points_row(const Sample& s, const GroundModel& model, TargetRow* out) {
   if (!(s.points_used > 0.5)) return false;
-  out->row = {s.points_err - bend_of(s), reference_var(s, s.points_ref_var), 1.0,
+  out->row = {s.points_err - bend_of(s, model), reference_var(s, s.points_ref_var), 1.0,
               points_features(s.points_num_inliers, s.points_spread, s.turn_ratio, s.step_ratio)};
   out->hand_var = s.points_hand_var;
   return true;
 }
 
-bool travel_row(const Sample& s, TargetRow* out) {
-  out->row = {s.travel_err, 0.0, 1.0, travel_features(s.turn_ratio, s.step_ratio)};
+/// Chords that do not overlap err independently.
+bool travel_row(const std::vector<Sample>& frames, std::size_t i, TargetRow* out) {
+  const Sample& s = frames[i];
+  if (!(s.travel_num_frames >= 1.0)) return false;
+  const auto num = static_cast<std::size_t>(s.travel_num_frames);
+  if (i < num || frames[i - num].seq + s.travel_num_frames != s.seq) return false;
+  out->row = {std::sqrt(0.5) * (s.travel_err - frames[i - num].travel_err), 0.0, 1.0,
+              travel_features(s.turn_ratio, s.step_ratio)};
   out->hand_var = s.travel_hand_var;
   return true;
 }
@@ -83,12 +90,14 @@ bool plane_row(Target target, const Sample& s, TargetRow* out) {
   return true;
 }
 
-bool row_of(Target target, const Sample& s, const GroundModel& model, TargetRow* out) {
+bool row_of(Target target, const std::vector<Sample>& frames, std::size_t i,
+            const GroundModel& model, TargetRow* out) {
+  const Sample& s = frames[i];
   switch (target) {
     case Target::kPoints:
-      return points_row(s, out);
+      return points_row(s, model, out);
     case Target::kTravel:
-      return travel_row(s, out);
+      return travel_row(frames, i, out);
     case Target::kPlanePitch:
     case Target::kPlaneRoll:
     case Target::kPlaneHeight:
@@ -109,12 +118,18 @@ const char* target_name(Target target) {
   return kNames[static_cast<std::size_t>(target)];
 }
 
+// The whole drive weighs 2 sqrt(n) rows: about the number of independent ones in it.
+double drive_weight(std::size_t num) {
+  return 2.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(num, 4)));
+}
+
 std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive, const GroundModel& model) {
   std::vector<TargetRow> rows;
   if (is_plane(target) && drive.algorithm != "learned") return rows;
-  for (const Sample& s : drive.frames) {
+  for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+    const Sample& s = drive.frames[i];
     TargetRow row;
-    if (!row_of(target, s, model, &row)) continue;
+    if (!row_of(target, drive.frames, i, model, &row)) continue;
     bool complete = finite(row.row.error, row.row.extra_var, row.hand_var);
     for (const double f : row.row.features) complete = complete && std::isfinite(f);
     if (!complete) continue;
@@ -122,9 +137,7 @@ std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive, const G
     row.step_ratio = s.step_ratio;
     rows.push_back(row);
   }
-  // The whole drive weighs 2 sqrt(n) rows: about the number of independent ones in it.
-  const double weight = 2.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(rows.size(), 4)));
-  for (TargetRow& row : rows) row.row.weight = weight;
+  for (TargetRow& row : rows) row.row.weight = drive_weight(rows.size());
   return rows;
 }
 

@@ -38,9 +38,13 @@ struct TargetRow {
       true;  ///< false: dense_n3 of a frame without a true plane, out of the height's error
 };
 
-/// Rows of one drive, weighted so that a long drive counts for more than a short one, but not in proportion: its frames
-/// are alike. Of `model`, dense_height (already fitted) serves frames without a true plane: there the error of the
-/// height is nearly all tilt times slope. The plane's rows come from samples of "learned" runs only.
+/// What each of a drive's `num` frames weighs: a long drive counts for more than a short one, but not in proportion, for
+/// its frames are alike.
+[[nodiscard]] double drive_weight(std::size_t num);
+
+/// Rows of one drive. Of `model`, the road's bend and dense_height (already fitted) serve frames without a true plane:
+/// there the error of the height is nearly all tilt times slope. The direction of travel is held against itself a chord
+/// before: what changes over so short a way is its noise. The plane's rows come from samples of "learned" runs only.
 [[nodiscard]] std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
                                              const GroundModel& model);
 
