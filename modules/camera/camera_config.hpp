@@ -33,6 +33,7 @@ struct CameraConfig {
   double rectified_cx_px = 0.0;
   double rectified_cy_px = 0.0;
 
+  double readout_s = 0.0;
   double residual_k1 = 0.0;
   double residual_k2 = 0.0;
   double camera_height_m = 0.0;
@@ -94,6 +95,8 @@ struct CameraConfig {
     field("camera.residual_k1", c.residual_k1, -0.1, 0.1,
           "radial term of r^2 left after rectification");
     field("camera.residual_k2", c.residual_k2, -0.1, 0.1, "the same, of r^4");
+    field("camera.readout_s", c.readout_s, 0.0, 0.1,
+          "rolling shutter: exposure of the last row after the first; 0: all rows at once");
     field("camera.camera_height_m", c.camera_height_m, 0.0, 4.0,
           "optical centre above the road, unloaded; 0: ground.camera_height_m");
   }
@@ -115,7 +118,7 @@ struct CameraConfig {
     field("camera.rate_hz", c.rate_hz, 0.0, 240.0, "frame rate asked of the device; 0: its own");
     field("camera.num_buffers", c.num_buffers, 2, 32, "buffers shared with the driver");
     field("camera.stamp_offset_s", c.stamp_offset_s, -1.0, 1.0,
-          "added to the driver's stamp to reach mid-exposure");
+          "added to the driver's stamp to reach mid-exposure, of the middle row");
     field("camera.timeout_s", c.timeout_s, 0.1, 60.0, "silence of the device that is a fault");
     field("camera.on_loss", c.on_loss, {"retry", "exit"}, "when the device is gone");
     field("camera.retry_min_s", c.retry_min_s, 0.05, 60.0, "first pause before opening again");

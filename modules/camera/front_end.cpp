@@ -56,6 +56,7 @@ CameraModel published_model(const CameraConfig& config, int width_px, int height
   model.cy_px = pinhole.cy_px;
   model.residual_k1 = config.residual_k1;
   model.residual_k2 = config.residual_k2;
+  model.readout_s = config.readout_s;
   model.camera_height_m = config.camera_height_m;
   return model;
 }

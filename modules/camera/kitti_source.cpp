@@ -68,6 +68,7 @@ void KittiSource::complete(CameraConfig* config) const {
     config->residual_k1 = camera.residual_k1;
     config->residual_k2 = camera.residual_k2;
   }
+  if (config->readout_s == 0.0) config->readout_s = camera.readout_s;
   if (config->camera_height_m == 0.0) config->camera_height_m = camera.camera_height_m;
 }
 

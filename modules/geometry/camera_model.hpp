@@ -2,7 +2,7 @@
 ///
 /// Frames  cam: x right, y down, z forward.  img: u right, v down, (0,0) is the centre of the upper
 /// left pixel. Model   r2 = x^2 + y^2 with (x, y) = (X/Z, Y/Z), s = 1 + k1 r2 + k2 r2^2;
-/// u = fx x s + cx,  v = fy y s + cy.
+/// u = fx x s + cx,  v = fy y s + cy.  Rows from the top down.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +20,12 @@ struct CameraModel {
   double residual_k1 = 0.0;      ///< [-] radial term left in "rectified" images, of r^2
   double residual_k2 = 0.0;      ///< [-] the same, of r^4
   double camera_height_m = 0.0;  ///< optical centre above the road; 0 when the rig does not say
+  double readout_s = 0.0;        ///< rolling shutter, first row to last; 0: all rows at once
+
+  /// When a row is exposed, after the image's own time: that of the middle row.
+  [[nodiscard]] double row_time_s(double v_px) const {
+    return readout_s * ((v_px + 0.5) / height_px - 0.5);
+  }
 
   /// Pixel of a point in cam. @pre p_cam.z() > 0
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_cam) const {

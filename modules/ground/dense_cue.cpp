@@ -58,7 +58,8 @@ struct DenseCue::Solution {
   void add_normal_prior(const Eigen::Vector3d& normal, ParamMatrix* H, ParamVector* b) const;
 };
 
-ImagePairs choose_image_pairs(const VoOutput& vo, const ImageRing& ring, double height) {
+ImagePairs choose_image_pairs(const VoOutput& vo, const ImageRing& ring, const RowClock& clock,
+                              double height) {
   ImagePairs pairs;
   for (const WindowPose& pose : vo.window) {
     const Pyramid* image = ring.find(pose.seq);
@@ -67,7 +68,7 @@ ImagePairs choose_image_pairs(const VoOutput& vo, const ImageRing& ring, double 
     const double wanted = pairs.empty() ? kShortBaseline : kLongBaseline;
     if (baseline < wanted || baseline > kLongestBaseline) continue;
     if (!pairs.empty() && log_so3(pose.T_window_cam.R).norm() > kLargestTurnRad) continue;
-    (void)pairs.push_back({image, pose.T_window_cam});
+    (void)pairs.push_back({image, pose.T_window_cam, clock.lag_per_y(vo.seq - pose.seq)});
   }
   return pairs;
 }
@@ -110,7 +111,8 @@ double DenseCue::sweep(const Pyramid& now, const ImagePairs& pairs, const DenseR
     double sad = 0.0;
     int num_pixels = 0;
     for (const ImagePair& pair : pairs) {
-      const PlaneWarp warp(level_of(*pair.old_image, level), camera, pair.T_old_cam);
+      const PlaneWarp warp(level_of(*pair.old_image, level), camera, pair.T_old_cam,
+                           pair.lag_per_y);
       const Likeness likeness = warp.compare(pixels_, q * std::exp(-ln_ratio));
       sad += likeness.sad * likeness.num_pixels;
       num_pixels += likeness.num_pixels;
@@ -175,7 +177,8 @@ bool DenseCue::refine(int level, const Pyramid& now, const ImagePairs& pairs,
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     std::array<PairSums, kMaxImagePairs> sums;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const PlaneWarp warp(level_of(*pairs[k].old_image, level), camera, pairs[k].T_old_cam);
+      const PlaneWarp warp(level_of(*pairs[k].old_image, level), camera, pairs[k].T_old_cam,
+                           pairs[k].lag_per_y);
       warp.accumulate(pixels_, solution->q, solution->photometric[k], solution->sigma_grey,
                       &sums[k]);
     }
@@ -203,7 +206,7 @@ void DenseCue::rate(const ImagePairs& pairs, DenseObservation* out) {
   const LevelCamera camera = camera_of_level(camera_, 0);
   double weight = 0.0;
   for (const ImagePair& pair : pairs) {
-    const PlaneWarp warp(level_of(*pair.old_image, 0), camera, pair.T_old_cam);
+    const PlaneWarp warp(level_of(*pair.old_image, 0), camera, pair.T_old_cam, pair.lag_per_y);
     const Likeness likeness = warp.compare(pixels_, out->q);
     out->sad += likeness.sad * likeness.num_pixels;
     out->ncc += likeness.ncc * likeness.num_pixels;
@@ -213,7 +216,7 @@ void DenseCue::rate(const ImagePairs& pairs, DenseObservation* out) {
     out->sad /= weight;
     out->ncc /= weight;
   }
-  const PlaneWarp still(level_of(*pairs[pairs.size() - 1].old_image, 0), camera, Se3{});
+  const PlaneWarp still(level_of(*pairs[pairs.size() - 1].old_image, 0), camera, Se3{}, 0.0);
   out->still_ncc = still.compare(pixels_, out->q).ncc;
 }
 

@@ -13,6 +13,7 @@
 #include "modules/ground/image_ring.hpp"
 #include "modules/ground/plane_warp.hpp"
 #include "modules/ground/road_pixels.hpp"
+#include "modules/ground/row_clock.hpp"
 #include "modules/vo/vo.hpp"
 #include "platform/fixed_vector.hpp"
 
@@ -24,6 +25,7 @@ inline constexpr std::size_t kMaxImagePairs = 2;
 struct ImagePair {
   const Pyramid* old_image = nullptr;
   Se3 T_old_cam;
+  double lag_per_y = 0.0;  ///< of RowClock
 };
 using ImagePairs = FixedVector<ImagePair, kMaxImagePairs>;
 
@@ -51,7 +53,7 @@ struct DenseObservation {
 /// Images to compare with: one at a short and, when held, one at a long baseline, in multiples of
 /// `height`.
 [[nodiscard]] ImagePairs choose_image_pairs(const VoOutput& vo, const ImageRing& ring,
-                                            double height);
+                                            const RowClock& clock, double height);
 
 class DenseCue {
  public:

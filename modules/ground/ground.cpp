@@ -61,6 +61,7 @@ struct GroundEstimator::Impl {
       : config(config_in),
         camera_height_m(camera_height_of(config_in, camera)),
         ring(camera),
+        row_clock(camera),
         dense_cue(ring.camera(), ring.num_levels()),
         covariance(make_covariance(config_in, model)),
         scale_bias_var(square(covariance->ln_scale_bias_std())),
@@ -85,6 +86,7 @@ struct GroundEstimator::Impl {
   GroundConfig config;
   double camera_height_m;
   ImageRing ring;
+  RowClock row_clock;
   DenseCue dense_cue;
   PointsCue points_cue;
   std::unique_ptr<const CueCovariance> covariance;
@@ -129,6 +131,7 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   m.out.capture_us = vo.capture_us;
   m.out.seq = vo.seq;
 
+  m.row_clock.take(vo.seq, vo.capture_us);
   m.take_image(input);
   probe.mark("pyramid");
   m.follow_scale_epoch(vo);
@@ -218,7 +221,7 @@ RoadShape GroundEstimator::Impl::road_shape() const {
 
 void GroundEstimator::Impl::measure_dense(const VoOutput& vo) {
   if (frame.image == nullptr) return;
-  const ImagePairs pairs = choose_image_pairs(vo, ring, frame.height);
+  const ImagePairs pairs = choose_image_pairs(vo, ring, row_clock, frame.height);
   if (pairs.empty()) return;
   const bool settled = filter.started() && filter.ln_height_std() < kSettledLnStd;
   const DenseRequest request{frame.normal_cam, frame.height, settled ? kSweepSettled : kSweepWide,

@@ -18,16 +18,34 @@ inline Lanes splat(float v) { return Lanes{} + v; }
 struct Homography {
   float g[3][3];
   float t[3];
+  float lag
+      [3]
+      [3];  ///< change of g per unit of y that a point has moved down since: the motion between its two rows is longer
+  bool lags;
 };
 
-inline Homography make_homography(const Se3& T_old_cam, const Eigen::Vector3d& q) {
+/// @param lag_per_y  rolling shutter (row_clock.hpp): share of the motion that passes per unit of y
+inline Homography make_homography(const Se3& T_old_cam, const Eigen::Vector3d& q,
+                                  double lag_per_y = 0.0) {
   const Eigen::Matrix3d G = T_old_cam.R + T_old_cam.t * q.transpose();
+  // First order in the lag: the motion goes on as it was between the two images.
+  const Eigen::Matrix3d lag =
+      lag_per_y * (hat(log_so3(T_old_cam.R)) * G + T_old_cam.t * q.transpose());
   Homography h{};
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) h.g[i][j] = static_cast<float>(G(i, j));
+    for (int j = 0; j < 3; ++j) {
+      h.g[i][j] = static_cast<float>(G(i, j));
+      h.lag[i][j] = static_cast<float>(lag(i, j));
+    }
     h.t[i] = static_cast<float>(T_old_cam.t(i));
   }
+  h.lags = lag_per_y != 0.0;
   return h;
+}
+
+/// Row of g or lag times the ray (x, y, 1).
+inline Lanes times_ray(const float (&row)[3], const Lanes& x, const Lanes& y) {
+  return row[0] * x + row[1] * y + row[2];
 }
 
 /// Where eight rays land in the older image.
@@ -46,10 +64,18 @@ struct Landing {
 inline void land(const Homography& h, const LevelCamera& camera, const ImageView& image,
                  const Lanes& x, const Lanes& y, int reach_px, Landing* out) {
   constexpr float kNearestDepth = 0.1F;
-  const Lanes depth = h.g[2][0] * x + h.g[2][1] * y + h.g[2][2];
+  constexpr int kRowIterations = 2;
+  Lanes depth = times_ray(h.g[2], x, y);
   out->inverse_depth = 1.0F / depth;
-  out->xn = (h.g[0][0] * x + h.g[0][1] * y + h.g[0][2]) * out->inverse_depth;
-  out->yn = (h.g[1][0] * x + h.g[1][1] * y + h.g[1][2]) * out->inverse_depth;
+  out->xn = times_ray(h.g[0], x, y) * out->inverse_depth;
+  out->yn = times_ray(h.g[1], x, y) * out->inverse_depth;
+  for (int i = 0; h.lags && i < kRowIterations; ++i) {
+    const Lanes down = y - out->yn;
+    depth = times_ray(h.g[2], x, y) + down * times_ray(h.lag[2], x, y);
+    out->inverse_depth = 1.0F / depth;
+    out->xn = (times_ray(h.g[0], x, y) + down * times_ray(h.lag[0], x, y)) * out->inverse_depth;
+    out->yn = (times_ray(h.g[1], x, y) + down * times_ray(h.lag[1], x, y)) * out->inverse_depth;
+  }
   const Lanes radial = camera.radial<Lanes>(out->xn * out->xn + out->yn * out->yn);
   const Lanes u = camera.fx * out->xn * radial + camera.cx;
   const Lanes v = camera.fy * out->yn * radial + camera.cy;

@@ -121,13 +121,14 @@ struct LaneSums {
 
 }  // namespace
 
-PlaneWarp::PlaneWarp(const ImageView& old_image, const LevelCamera& camera, const Se3& T_old_cam)
-    : image_(old_image), camera_(camera), T_old_cam_(T_old_cam) {}
+PlaneWarp::PlaneWarp(const ImageView& old_image, const LevelCamera& camera, const Se3& T_old_cam,
+                     double lag_per_y)
+    : image_(old_image), camera_(camera), T_old_cam_(T_old_cam), lag_per_y_(lag_per_y) {}
 
 void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
                            const Photometric& photometric, double sigma_grey,
                            PairSums* sums) const {
-  const Homography h = make_homography(T_old_cam_, q);
+  const Homography h = make_homography(T_old_cam_, q, lag_per_y_);
   const float gain = static_cast<float>(1.0 + photometric.gain);
   const float bias = static_cast<float>(photometric.bias);
   const float inverse_var = static_cast<float>(1.0 / (sigma_grey * sigma_grey));
@@ -142,7 +143,7 @@ void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
     Sample old{};
     sample_with_gradient(image_, at, &old);
     const Lanes r = old.value - gain * grey - bias;
-    // Chain rule along the epipolar line; the radial term's own slope, below 1 %, is left to
+    // Chain rule along the epipolar line; the radial term's own slope, below 1 %, and the rolling shutter's are left to
     // iteration.
     const Lanes g = at.inverse_depth * (camera_.fx * old.du * (h.t[0] - at.xn * h.t[2]) +
                                         camera_.fy * old.dv * (h.t[1] - at.yn * h.t[2]));
@@ -156,7 +157,7 @@ void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
 }
 
 Likeness PlaneWarp::compare(const RoadPixels& pixels, const Eigen::Vector3d& q) const {
-  const Homography h = make_homography(T_old_cam_, q);
+  const Homography h = make_homography(T_old_cam_, q, lag_per_y_);
   alignas(32) std::array<float, kMaxRoadPixels + kLanes> difference{};
   Lanes count{}, sum_a{}, sum_b{}, sum_aa{}, sum_bb{}, sum_ab{};
   const Lanes zero{};

@@ -41,7 +41,9 @@ struct Likeness {
 
 class PlaneWarp {
  public:
-  PlaneWarp(const ImageView& old_image, const LevelCamera& camera, const Se3& T_old_cam);
+  /// @param lag_per_y  of RowClock, for this pair of images
+  PlaneWarp(const ImageView& old_image, const LevelCamera& camera, const Se3& T_old_cam,
+            double lag_per_y);
 
   /// Linearises at (q, photometric); Student-t weights with scale `sigma_grey`.
   void accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
@@ -53,6 +55,7 @@ class PlaneWarp {
   ImageView image_;
   LevelCamera camera_;
   Se3 T_old_cam_;
+  double lag_per_y_;
 };
 
 }  // namespace plumb

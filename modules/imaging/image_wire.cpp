@@ -141,6 +141,7 @@ camera_calibration_t to_wire(const CameraModel& camera, std::int64_t utime) {
   message.cy_px = camera.cy_px;
   message.residual_k1 = camera.residual_k1;
   message.residual_k2 = camera.residual_k2;
+  message.readout_s = camera.readout_s;
   message.camera_height_m = camera.camera_height_m;
   return message;
 }
@@ -161,11 +162,12 @@ const char* from_wire(const camera_calibration_t& message, CameraModel* camera) 
   }
   if (!inside(message.residual_k1, -0.5, 0.5)) return "calibration: k1 is outside [-0.5, 0.5]";
   if (!inside(message.residual_k2, -0.5, 0.5)) return "calibration: k2 is outside [-0.5, 0.5]";
+  if (!inside(message.readout_s, 0.0, 0.1)) return "calibration: readout is outside [0, 0.1] s";
   if (message.camera_height_m != 0.0 && !inside(message.camera_height_m, 0.3, 4.0))
     return "calibration: camera height is neither 0 nor in [0.3, 4]";
-  *camera = {message.width,       message.height,      message.fx_px,
-             message.fy_px,       message.cx_px,       message.cy_px,
-             message.residual_k1, message.residual_k2, message.camera_height_m};
+  *camera = {message.width,           message.height,   message.fx_px,       message.fy_px,
+             message.cx_px,           message.cy_px,    message.residual_k1, message.residual_k2,
+             message.camera_height_m, message.readout_s};
   return nullptr;
 }
 
@@ -173,7 +175,7 @@ bool same_camera(const CameraModel& a, const CameraModel& b) {
   return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px &&
          a.fy_px == b.fy_px && a.cx_px == b.cx_px && a.cy_px == b.cy_px &&
          a.residual_k1 == b.residual_k1 && a.residual_k2 == b.residual_k2 &&
-         a.camera_height_m == b.camera_height_m;
+         a.camera_height_m == b.camera_height_m && a.readout_s == b.readout_s;
 }
 
 struct ImageDecoder::Storage {

@@ -66,7 +66,7 @@ void Keyframes::remove_frame(int slot, TrackTable& tracks, Window& window) {
     Track& track = tracks[index];
     if (track.host == slot) {
       if (!change_host(track, slot, window)) return false;
-      track.host_px = camera_.from_normalized(track.host_xy);
+      track.host_px = camera_.from_normalized(track.shown_xy_in(track.host));
     }
     track.forget(slot);
     return true;

@@ -121,7 +121,7 @@ PoseFit Pipeline::fit(const Se3& start, int max_iterations) const {
 
 PoseFit Pipeline::locate(StageProbe& probe) {
   const Se3 T_predicted = motion_.predict(dt_s_).inverse() * last_pose();
-  tracker_.begin(tracks_);
+  tracker_.begin(tracks_, dt_s_ + unseen_s_);
   tracker_.predict_by_pose(tracks_, window_, last_image_pose(), T_predicted);
   const auto num_before = static_cast<double>(tracks_.active().size());
   const int num_found = tracker_.search(last_image(), image(), tracks_, unseen_s_ > 0.0);
@@ -164,7 +164,7 @@ int Pipeline::add_frame(std::int64_t seq, const Se3& T_cam_world) {
   const int slot = window_.add(seq, T_cam_world);
   for (const int index : tracks_.active()) {
     Track& track = tracks_[index];
-    track.observe(slot, track.xy);
+    track.observe(slot, track.xy, track.row_shift);
     ++track.num_images;
   }
   return slot;

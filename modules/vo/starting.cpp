@@ -53,7 +53,7 @@ void Pipeline::begin_reference(std::int64_t seq, const Se3& T_cam_world, const P
 void Pipeline::start(const VoInput& input, StageProbe& probe) {
   const Se3 T_prev_cam = motion_.predict(dt_s_);
   const Se3 T_predicted = T_prev_cam.inverse() * last_pose();
-  tracker_.begin(tracks_);
+  tracker_.begin(tracks_, dt_s_);
   if (motion_.known()) {
     tracker_.predict_by_pose(tracks_, window_, last_image_pose(), T_predicted);
   } else {
@@ -104,7 +104,7 @@ bool Pipeline::stands_before_start(const VoInput& input) {
   scratch_.clear();
   for (const int index : tracks_.active()) {
     const Track& track = tracks_[index];
-    scratch_.push_back((camera_.from_normalized(track.xy_in(newest)) - track.px).norm());
+    scratch_.push_back((camera_.from_normalized(track.shown_xy_in(newest)) - track.px).norm());
   }
   if (at_share(scratch_, kStandingShare) > kStandingFlowPx) return false;
   // The view is the reference's own: aligning with its patches undoes the drift of the search.
@@ -215,7 +215,7 @@ void Pipeline::restart(const VoInput& input, StageProbe& probe) {
       out_.num_tracked < kMinTracks ? VoReason::kTooFewFeatures : VoReason::kTooFewInliers;
   if (adjacent) {
     begin_reference(last_seq_, T_image_world, last_image());
-    tracker_.begin(tracks_);
+    tracker_.begin(tracks_, dt_s_);
     tracker_.predict_by_pose(tracks_, window_, T_image_world, T_predicted);
     out_.num_tracked = tracker_.search(last_image(), image(), tracks_, true);
     tracker_.drop_missing(tracks_);

@@ -1,6 +1,7 @@
 /// A corner followed through the window, with its inverse depth in its host keyframe.
 ///
-/// Frames   img for px; xy are undistorted normalised coordinates (X/Z, Y/Z) in cam.
+/// Frames   img for px; xy are undistorted normalised coordinates (X/Z, Y/Z) in cam, as seen at the image's own time:
+///          under a rolling shutter px is where the row was exposed, and lies off xy by `row_shift`.
 /// Units    rho in 1/[vo]: 1/Z in the host keyframe.
 /// Memory   a table of fixed capacity; tracks never move, lists hold their indices.
 #pragma once
@@ -24,6 +25,7 @@ struct Track {
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();
   Eigen::Vector2d prev_px = Eigen::Vector2d::Zero();  ///< the one before
   Eigen::Vector2d prev_xy = Eigen::Vector2d::Zero();
+  Eigen::Vector2d row_shift = Eigen::Vector2d::Zero();  ///< of xy, by its row's time
 
   double rho = 0.0;
   double rho_std = 0.0;
@@ -32,18 +34,25 @@ struct Track {
 
   std::uint32_t seen = 0;  ///< bit per window slot
   std::array<Eigen::Vector2d, kMaxFrames> obs_xy{};
+  std::array<Eigen::Vector2f, kMaxFrames> obs_row_shift{};
 
   int num_images = 0;    ///< that saw it, the host's included
   bool on_road = false;  ///< its patch moves like the road's
 
   [[nodiscard]] bool seen_in(int slot) const { return (seen >> slot & 1U) != 0; }
-  void observe(int slot, const Eigen::Vector2d& where_xy) {
+  void observe(int slot, const Eigen::Vector2d& where_xy,
+               const Eigen::Vector2d& where_row_shift = Eigen::Vector2d::Zero()) {
     seen |= 1U << slot;
     obs_xy[static_cast<std::size_t>(slot)] = where_xy;
+    obs_row_shift[static_cast<std::size_t>(slot)] = where_row_shift.cast<float>();
   }
   void forget(int slot) { seen &= ~(1U << slot); }
   [[nodiscard]] const Eigen::Vector2d& xy_in(int slot) const {
     return obs_xy[static_cast<std::size_t>(slot)];
+  }
+  /// Where the image of `slot` shows it, in normalised coordinates.
+  [[nodiscard]] Eigen::Vector2d shown_xy_in(int slot) const {
+    return xy_in(slot) + obs_row_shift[static_cast<std::size_t>(slot)].cast<double>();
   }
 };
 

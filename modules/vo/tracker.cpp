@@ -47,7 +47,8 @@ bool Tracker::inside(const Eigen::Vector2d& px) const {
          px.y() <= camera_.height_px - kSearchBorderPx - 1;
 }
 
-void Tracker::begin(TrackTable& tracks) {
+void Tracker::begin(TrackTable& tracks, double dt_s) {
+  dt_s_ = dt_s;
   for (const int index : tracks.active()) {
     Track& track = tracks[index];
     flow_[static_cast<std::size_t>(index)] = track.px - track.prev_px;
@@ -55,6 +56,25 @@ void Tracker::begin(TrackTable& tracks) {
     track.prev_xy = track.xy;
     found_[static_cast<std::size_t>(index)] = 0;
   }
+}
+
+/// Under a rolling shutter a point is seen at its row's time; its own motion between the last two images brings it to
+/// the image's time, whatever its depth. A point new in the image before learns only now where that was.
+void Tracker::place(const Eigen::Vector2d& px, Track& track) const {
+  track.px = px;
+  track.xy = camera_.to_normalized(px);
+  if (camera_.readout_s <= 0.0 || dt_s_ <= 0.0) return;
+  const double row_s = camera_.row_time_s(px.y());
+  const double prev_row_s = camera_.row_time_s(track.prev_px.y());
+  const Eigen::Vector2d prev_shown_xy = camera_.to_normalized(track.prev_px);
+  const Eigen::Vector2d velocity = (track.xy - prev_shown_xy) / (dt_s_ + row_s - prev_row_s);
+  if (track.num_images == 1 && track.prev_px == track.host_px) {
+    track.row_shift = prev_row_s * velocity;
+    track.host_xy = track.prev_xy = prev_shown_xy - track.row_shift;
+    track.observe(track.host, track.host_xy, track.row_shift);
+  }
+  track.row_shift = row_s * velocity;
+  track.xy -= track.row_shift;
 }
 
 void Tracker::predict_by_flow(const TrackTable& tracks) {
@@ -85,7 +105,7 @@ void Tracker::predict_by_pose(const TrackTable& tracks, const Window& window,
     // Added to where the track was, the predicted motion keeps the track's own offset from its model.
     const Eigen::Vector2d now = camera_.project(Y);
     const Eigen::Vector2d before = camera_.project(Y_prev);
-    const bool usable = track.rho_std < kUsableDepth * track.rho;
+    const bool usable = track.rho_std < kUsableDepth * track.rho && camera_.readout_s <= 0.0;
     guess.px = (usable ? now : Eigen::Vector2d(track.prev_px + now - before)).cast<float>();
     const double flow_std = (now - before).norm() * track.rho_std / track.rho;
     guess.std_px = static_cast<float>(kMinStdPx + surprise_px_ + flow_std);
@@ -119,8 +139,7 @@ int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, 
     }
     found = 1;
     ++num_found;
-    track.px = there.px.cast<double>();
-    track.xy = camera_.to_normalized(track.px);
+    place(there.px.cast<double>(), track);
     if (track.rho_std < kUsableDepth * track.rho) {
       scratch_.push_back(static_cast<double>((there.px - guess.px).norm()));
     }
@@ -180,8 +199,7 @@ bool Tracker::anchor_one(const ImageView& image, Track& track, const ImageView& 
   }
   if (best.ncc < kMinAnchorNcc) return false;
   track.on_road = on_road;
-  track.px = best.px.cast<double>();
-  track.xy = camera_.to_normalized(track.px);
+  place(best.px.cast<double>(), track);
   return true;
 }
 

@@ -18,8 +18,8 @@ class Tracker {
  public:
   Tracker(const CameraModel& camera, int track_capacity);
 
-  /// Starts a frame: the newest positions become the previous ones.
-  void begin(TrackTable& tracks);
+  /// Starts a frame, `dt_s` after the image before: the newest positions become the previous ones.
+  void begin(TrackTable& tracks, double dt_s);
 
   /// Where to search: by pose and inverse depth, or by repeating the last image motion.
   void predict_by_pose(const TrackTable& tracks, const Window& window, const Se3& T_prev_world,
@@ -45,12 +45,14 @@ class Tracker {
   [[nodiscard]] bool anchor_one(const ImageView& image, Track& track, const ImageView& host_image,
                                 const Se3& T_cam_host) const;
   [[nodiscard]] bool inside(const Eigen::Vector2d& px) const;
+  void place(const Eigen::Vector2d& px, Track& track) const;
 
   CameraModel camera_;
   std::vector<Guess> guesses_;         // by track index
   std::vector<unsigned char> found_;   // by track index
   std::vector<Eigen::Vector2d> flow_;  // by track index, of the frame before
   std::vector<double> scratch_;
+  double dt_s_ = 0.0;
   double surprise_px_ =
       0.0;  // median distance between guess and result where depth was known, last search
 };

@@ -46,6 +46,7 @@ RectifiedCamera read_odometry_camera(const SequenceOptions& options) {
   set_residual(file.optional_number("residual_k1"), file.optional_number("residual_k2"),
                &camera.model);
   camera.model.camera_height_m = file.optional_number("camera_height_m").value_or(0.0);
+  camera.model.readout_s = file.optional_number("readout_s").value_or(0.0);
   return camera;
 }
 
@@ -181,6 +182,7 @@ Sequence read_sequence(const SequenceOptions& options) {
   if (options.residual_k1 || options.residual_k2) {
     set_residual(options.residual_k1, options.residual_k2, &sequence.camera);
   }
+  if (options.readout_s) sequence.camera.readout_s = *options.readout_s;
   if (options.camera_height_m) sequence.camera.camera_height_m = *options.camera_height_m;
   for (const NumberedImage& image : images)
     sequence.frames.push_back({image.number, image.path, 0, {}, {}});

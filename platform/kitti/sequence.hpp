@@ -50,6 +50,7 @@ struct SequenceOptions {
   std::optional<double> residual_k1;
   std::optional<double> residual_k2;  ///< given k1 alone: 0
   std::optional<double> camera_height_m;
+  std::optional<double> readout_s;         ///< else calib.txt's, else 0
   std::optional<std::int64_t> start, end;  ///< first and last frame number
 };
 

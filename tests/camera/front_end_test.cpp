@@ -54,6 +54,7 @@ TEST(FrontEnd, PublishesTheRectifiedPinholeAndTheRigsHeight) {
   config.rectified_cy_px = 90.0;
   config.residual_k1 = 0.004;
   config.residual_k2 = -0.001;
+  config.readout_s = 0.015;
   config.camera_height_m = 1.42;
   const CameraModel model = published_model(config, kWidth, kHeight);
   EXPECT_EQ(model.width_px, kWidth);
@@ -64,6 +65,7 @@ TEST(FrontEnd, PublishesTheRectifiedPinholeAndTheRigsHeight) {
   EXPECT_EQ(model.cy_px, 90.0);
   EXPECT_EQ(model.residual_k1, 0.004);
   EXPECT_EQ(model.residual_k2, -0.001);
+  EXPECT_EQ(model.readout_s, 0.015);
   EXPECT_EQ(model.camera_height_m, 1.42);
 }
 

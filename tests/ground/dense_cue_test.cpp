@@ -14,11 +14,18 @@ namespace {
 
 constexpr double kMetresPerVo = 1.3;
 
-/// Three views of one road: now, one step and three steps ago.
+CameraModel camera_read_in(double readout_s) {
+  CameraModel camera = test::scene_camera();
+  camera.readout_s = readout_s;
+  return camera;
+}
+
+/// Three views of one road: now, one step and three steps ago. Rows are read within `readout_s`, and the cue is told
+/// `told_s`.
 struct Views {
   explicit Views(const test::Shutter& now_shutter, const test::Shutter& old_shutter = {},
-                 double turn_left_rad = 0.0)
-      : camera(test::scene_camera()), ring(camera) {
+                 double turn_left_rad = 0.0, double readout_s = 0.0, double told_s = 0.0)
+      : camera(camera_read_in(readout_s)), ring(camera) {
     test::Drive drive;
     drive.mount_pitch_rad = 0.02;
     drive.mount_roll_rad = -0.015;
@@ -27,12 +34,16 @@ struct Views {
     const std::vector<Se3> poses = drive.poses(4);
     truth = test::plane_in(poses[3]);
     for (std::uint32_t k = 0; k < 4; ++k) {
-      const test::Shutter& shutter = k == 3 ? now_shutter : old_shutter;
+      test::Shutter shutter = k == 3 ? now_shutter : old_shutter;
+      shutter.step = poses[0].inverse() * poses[1];
       const test::GreyImage image = test::render(camera, poses[k], shutter, k + 1);
       now = &ring.push(k, image.view());
     }
     test::script_vo(poses, 3, {.metres_per_vo = kMetresPerVo, .first_ok_frame = 0}, &vo);
-    pairs = choose_image_pairs(vo, ring, truth.height_m / kMetresPerVo);
+    RowClock clock(camera_read_in(told_s));
+    clock.take(2, vo.capture_us - 100'000);
+    clock.take(3, vo.capture_us);
+    pairs = choose_image_pairs(vo, ring, clock, truth.height_m / kMetresPerVo);
   }
 
   [[nodiscard]] DenseRequest request(double height_error_ratio) const {
@@ -103,6 +114,33 @@ TEST(DenseCue, FindsThePlaneInATurn) {
   EXPECT_LT(std::abs(errors_of(seen, views).ln_height), 0.005);
 }
 
+TEST(DenseCue, KnowsThatRowsAreExposedOneAfterTheOther) {
+  for (const double turn_left_rad : {0.0, 0.04}) {
+    Views told({}, {}, turn_left_rad, 0.03, 0.03);
+    DenseCue cue(told.ring.camera(), told.ring.num_levels());
+    const DenseObservation seen = cue.measure(*told.now, told.pairs, told.request(1.0));
+    ASSERT_TRUE(seen.ok);
+    EXPECT_LT(std::abs(errors_of(seen, told).ln_height), 0.012) << turn_left_rad;
+    EXPECT_LT(errors_of(seen, told).angle_deg, 0.35) << turn_left_rad;
+
+    Views untold({}, {}, turn_left_rad, 0.03, 0.0);
+    const DenseObservation wrong = cue.measure(*untold.now, untold.pairs, untold.request(1.0));
+    EXPECT_GT(std::abs(errors_of(wrong, untold).ln_height), 0.02) << turn_left_rad;
+  }
+}
+
+TEST(RowClock, SharesTheMotionBetweenTwoImagesOutOverTheRows) {
+  const CameraModel camera = camera_read_in(0.02);
+  RowClock clock(camera);
+  clock.take(4, 1'000'000);
+  EXPECT_EQ(clock.lag_per_y(1), 0.0);
+  clock.take(6, 1'200'000);  // one image is missing
+  // From the first row to the last y grows by height / fy, and 0.02 s pass.
+  const double all_rows = camera.height_px / camera.fy_px;
+  EXPECT_NEAR(clock.lag_per_y(1) * all_rows, 0.02 / 0.1, 1e-12);
+  EXPECT_NEAR(clock.lag_per_y(4) * all_rows, 0.02 / 0.4, 1e-12);
+}
+
 TEST(DenseCue, WithstandsExposureBlurAndNoise) {
   Views views({.gain = 0.8, .bias = 15.0, .noise_grey = 2.0, .blur_px = 1}, {.noise_grey = 2.0});
   DenseCue cue(views.ring.camera(), views.ring.num_levels());
@@ -132,7 +170,7 @@ TEST(PlaneWarp, GradientOfTheCostMatchesCentralDifferences) {
   const Eigen::Vector3d q = views.truth.normal_cam * kMetresPerVo / (1.02 * views.truth.height_m);
   select_road_pixels(views.now->level(0), level, {3.3, 12.0, 1.0, 0.0}, q, 2000, &pixels);
   const ImagePair& pair = views.pairs[0];
-  const PlaneWarp warp(pair.old_image->level(0), level, pair.T_old_cam);
+  const PlaneWarp warp(pair.old_image->level(0), level, pair.T_old_cam, 0.0);
   using Params = Eigen::Matrix<double, kNumPairParams, 1>;
   const auto sums_at = [&](const Params& p) {
     PairSums sums;

@@ -87,9 +87,13 @@ GreyImage render(const CameraModel& camera, const Se3& T_world_cam, const Shutte
   std::normal_distribution<double> noise(0.0, 1.0);
   const int width = camera.width_px, height = camera.height_px;
   std::vector<double> scene(static_cast<std::size_t>(width * height));
+  constexpr double kImage_s = 0.1;
   for (int v = 0; v < height; ++v) {
+    const double share = camera.row_time_s(v) / kImage_s;
+    const Se3 moved{exp_so3(share * log_so3(shutter.step.R)), share * shutter.step.t};
+    const Se3 T_world_row = T_world_cam * moved;
     for (int u = 0; u < width; ++u) {
-      scene[static_cast<std::size_t>(v * width + u)] = radiance(camera, T_world_cam, u, v);
+      scene[static_cast<std::size_t>(v * width + u)] = radiance(camera, T_world_row, u, v);
     }
   }
   if (shutter.blur_px > 0) {

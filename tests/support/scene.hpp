@@ -55,21 +55,41 @@ class Scene {
   /// @param noise_std_grey  sensor noise, drawn from `seed`
   [[nodiscard]] RenderedImage render(const Se3& T_world_cam, double noise_std_grey = 0.0,
                                      unsigned seed = 1, double gain = 1.0) const {
-    RenderedImage image{{}, camera_.width_px, camera_.height_px};
-    image.pixels.reserve(rays_.size());
-    std::mt19937 generator(seed);
-    std::normal_distribution<double> noise(0.0, 1.0);
-    for (const Eigen::Vector3d& ray_cam : rays_) {
-      double grey = gain * shade(T_world_cam.t, T_world_cam.R * ray_cam);
-      if (noise_std_grey > 0.0) grey += noise_std_grey * noise(generator);
-      image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(grey + 0.5, 0.0, 255.0)));
-    }
-    return image;
+    return render_rows([&T_world_cam](int) { return T_world_cam; }, noise_std_grey, seed, gain);
+  }
+
+  /// Under the camera's rolling shutter, while it moves on by `step` per `image_s`.
+  [[nodiscard]] RenderedImage render_rolling(const Se3& T_world_cam, const Se3& step,
+                                             double image_s) const {
+    const auto pose_of_row = [&](int v) {
+      const double share = camera_.row_time_s(v) / image_s;
+      return T_world_cam * Se3{exp_so3(share * log_so3(step.R)), share * step.t};
+    };
+    return render_rows(pose_of_row, 0.0, 1, 1.0);
   }
 
   [[nodiscard]] const CameraModel& camera() const { return camera_; }
 
  private:
+  template <typename PoseOfRow>
+  [[nodiscard]] RenderedImage render_rows(const PoseOfRow& pose_of_row, double noise_std_grey,
+                                          unsigned seed, double gain) const {
+    RenderedImage image{{}, camera_.width_px, camera_.height_px};
+    image.pixels.reserve(rays_.size());
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> noise(0.0, 1.0);
+    auto ray_cam = rays_.begin();
+    for (int v = 0; v < camera_.height_px; ++v) {
+      const Se3 T_world_cam = pose_of_row(v);
+      for (int u = 0; u < camera_.width_px; ++u, ++ray_cam) {
+        double grey = gain * shade(T_world_cam.t, T_world_cam.R * *ray_cam);
+        if (noise_std_grey > 0.0) grey += noise_std_grey * noise(generator);
+        image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(grey + 0.5, 0.0, 255.0)));
+      }
+    }
+    return image;
+  }
+
   struct Hit {
     double range = 1e9;  // in units of the ray
     double a = 0.0, b = 0.0;

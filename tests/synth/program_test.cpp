@@ -59,7 +59,9 @@ TEST_F(SynthProgram, FilesDoNotDependOnTheNumberOfThreads) {
 
 TEST_F(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   const fs::path out = fresh("layout");
-  ASSERT_EQ(run("--out " + out.string() + kSmall + "--residual-k1 0.01 --residual-k2 -0.004").code,
+  ASSERT_EQ(run("--out " + out.string() + kSmall +
+                "--residual-k1 0.01 --residual-k2 -0.004 --rolling-shutter 0.01")
+                .code,
             0);
   for (const char* name : {"times.txt", "poses.txt", "gt_ground_plane.txt", "vehicle.txt"})
     EXPECT_EQ(lines(out / name, false), 5) << name;
@@ -68,8 +70,8 @@ TEST_F(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   EXPECT_EQ(image.cols, 310);
   EXPECT_EQ(image.rows, 94);
   const std::string calibration = read_text(out / "calib.txt");
-  for (const char* row :
-       {"P0: ", "P1: ", "P2: ", "P3: ", "residual_k1: 0.01\n", "residual_k2: -0.004\n"})
+  for (const char* row : {"P0: ", "P1: ", "P2: ", "P3: ", "residual_k1: 0.01\n",
+                          "residual_k2: -0.004\n", "readout_s: 0.01\n"})
     EXPECT_NE(calibration.find(row), std::string::npos) << row;
   std::ifstream poses(out / "poses.txt");
   for (const double expected : {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0}) {

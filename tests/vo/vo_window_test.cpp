@@ -86,7 +86,9 @@ TEST(TrackTable, FreedTracksAreUsedAgainAndRefusedWhenFull) {
 TEST(Track, RemembersInWhichSlotsItWasSeen) {
   Track track;
   track.observe(3, {0.1, 0.2});
-  track.observe(11, {0.3, 0.4});
+  track.observe(11, {0.3, 0.4}, {0.0, -0.25});
+  EXPECT_TRUE(track.shown_xy_in(11).isApprox(Eigen::Vector2d(0.3, 0.15)));
+  EXPECT_EQ(track.shown_xy_in(3), track.xy_in(3));
   EXPECT_TRUE(track.seen_in(3));
   EXPECT_FALSE(track.seen_in(4));
   track.forget(3);

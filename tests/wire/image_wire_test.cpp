@@ -207,10 +207,13 @@ TEST(ImageWire, SurvivesHostileLengthsAndNoise) {
 }
 
 TEST(CalibrationWire, RoundTrips) {
-  const CameraModel camera{1242, 375, 721.5, 720.9, 609.6, 172.9, -0.002, 0.0004, 1.65};
+  const CameraModel camera{1242, 375, 721.5, 720.9, 609.6, 172.9, -0.002, 0.0004, 1.65, 0.02};
   CameraModel back;
   EXPECT_EQ(nullptr, from_wire(to_wire(camera, 5), &back));
   EXPECT_TRUE(same_camera(camera, back));
+  back.readout_s = 0.0;
+  EXPECT_FALSE(same_camera(camera, back));
+  back = camera;
   back.camera_height_m = 0.0;
   EXPECT_FALSE(same_camera(camera, back));
   EXPECT_EQ(nullptr, from_wire(to_wire(back, 5), &back)) << "0: the rig does not say";
@@ -236,6 +239,8 @@ TEST(CalibrationWire, RefusesWhatIsNoCamera) {
   EXPECT_TRUE(refused([](CameraModel* c) { c->residual_k1 = 2.0; }));
   EXPECT_TRUE(refused([](CameraModel* c) { c->residual_k2 = -2.0; }));
   EXPECT_TRUE(refused([](CameraModel* c) { c->camera_height_m = 145.0; }));
+  EXPECT_TRUE(refused([](CameraModel* c) { c->readout_s = -0.01; }));
+  EXPECT_TRUE(refused([](CameraModel* c) { c->readout_s = 20.0; }));  // not milliseconds
   EXPECT_TRUE(refused([=](CameraModel* c) { c->camera_height_m = nan; }));
 }
 

@@ -52,6 +52,9 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
          "--camera-height", sequence->camera_height_m,
          "optical centre above the road [calib.txt's camera_height_m, else the configuration's]")
       ->check(CLI::Range(0.3, 4.0));
+  app->add_option("--readout", sequence->readout_s,
+                  "rolling shutter, first row to last, s [calib.txt's readout_s, else 0]")
+      ->check(CLI::Range(0.0, 0.1));
   app->add_option("--start", sequence->start, "first frame number")->check(CLI::NonNegativeNumber);
   app->add_option("--end", sequence->end, "last frame number")->check(CLI::NonNegativeNumber);
 }

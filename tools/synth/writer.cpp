@@ -67,6 +67,7 @@ void write_calibration(const fs::path& folder, const SynthConfig& config) {
   const double stated_m =
       config.stated_height_m > 0.0 ? config.stated_height_m : config.drive.mount.height_m;
   file.line(format("camera_height_m: %.9g", stated_m));
+  if (config.render.readout_s > 0.0) file.line(format("readout_s: %.9g", config.render.readout_s));
   file.finish();
 }
 

@@ -44,16 +44,20 @@ TEST_F(SequenceTest, CalibrationBeatsTheDefaultAndTheOptionBeatsBoth) {
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.residual_k1, kKittiResidualK1);
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.residual_k2, kKittiResidualK2);
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.camera_height_m, 0.0);
-  folder_.write("seq/calib.txt",
-                std::string(test::kCalibration) + "residual_k1: 0\ncamera_height_m: 1.5\n");
+  EXPECT_DOUBLE_EQ(read_sequence(o).camera.readout_s, 0.0);
+  folder_.write("seq/calib.txt", std::string(test::kCalibration) +
+                                     "residual_k1: 0\ncamera_height_m: 1.5\nreadout_s: 0.02\n");
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.residual_k1, 0.0);
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.residual_k2, 0.0);
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.camera_height_m, 1.5);
+  EXPECT_DOUBLE_EQ(read_sequence(o).camera.readout_s, 0.02);
   o.residual_k1 = -0.01;
   o.camera_height_m = 1.7;
+  o.readout_s = 0.0;
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.residual_k1, -0.01);
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.residual_k2, 0.0);
   EXPECT_DOUBLE_EQ(read_sequence(o).camera.camera_height_m, 1.7);
+  EXPECT_DOUBLE_EQ(read_sequence(o).camera.readout_s, 0.0);
 }
 
 TEST_F(SequenceTest, MovesTruthToTheCameraThatIsConverted) {
