@@ -18,9 +18,8 @@ inline Lanes splat(float v) { return Lanes{} + v; }
 struct Homography {
   float g[3][3];
   float t[3];
-  float lag
-      [3]
-      [3];  ///< change of g per unit of y that a point has moved down since: the motion between its two rows is longer
+  /// Change of g per unit of y that a point has moved down since: the motion between its two rows is longer.
+  float lag[3][3];
   bool lags;
 };
 

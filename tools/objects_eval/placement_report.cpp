@@ -41,7 +41,11 @@ std::string rows_of(const DrivePlacement& drive) {
   for (const Range range : kRanges) {
     for (const Motion motion : kMotions) {
       const PlacementFigures f = placement_figures(drive.samples, range, motion);
-      if (f.num_samples == 0 && motion != Motion::kAny) continue;
+      if (f.num_samples == 0) {
+        if (motion == Motion::kAny)
+          text += format("%-20s %-8snone\n", drive.name.c_str(), name_of(range));
+        continue;
+      }
       text += format("%-20s %-8s%-9s%5zu |%6.2f%7.2f%+8.2f |%6.2f%7.2f |%6.2f%9.2f |%6.1f%11.1f\n",
                      drive.name.c_str(), name_of(range), name_of(motion), f.num_samples,
                      f.depth_mean_percent, f.depth_median_percent, f.depth_bias_percent,
