@@ -19,7 +19,7 @@ struct Homography {
   float g[3][3];
   float t[3];
   /// Change of g per unit of y that a point has moved down since: the motion between its two rows is longer.
-  float lag[3][3];
+  float lag[3][3];  ///< only where `lags`
   bool lags;
 };
 
@@ -27,18 +27,19 @@ struct Homography {
 inline Homography make_homography(const Se3& T_old_cam, const Eigen::Vector3d& q,
                                   double lag_per_y = 0.0) {
   const Eigen::Matrix3d G = T_old_cam.R + T_old_cam.t * q.transpose();
-  // First order in the lag: the motion goes on as it was between the two images.
-  const Eigen::Matrix3d lag =
-      lag_per_y * (hat(log_so3(T_old_cam.R)) * G + T_old_cam.t * q.transpose());
   Homography h{};
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      h.g[i][j] = static_cast<float>(G(i, j));
-      h.lag[i][j] = static_cast<float>(lag(i, j));
-    }
+    for (int j = 0; j < 3; ++j) h.g[i][j] = static_cast<float>(G(i, j));
     h.t[i] = static_cast<float>(T_old_cam.t(i));
   }
   h.lags = lag_per_y != 0.0;
+  if (!h.lags) return h;
+  // First order in the lag: the motion goes on as it was between the two images.
+  const Eigen::Matrix3d lag =
+      lag_per_y * (hat(log_so3(T_old_cam.R)) * G + T_old_cam.t * q.transpose());
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) h.lag[i][j] = static_cast<float>(lag(i, j));
+  }
   return h;
 }
 

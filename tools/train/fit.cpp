@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "modules/ground/learned_covariance.hpp"
+#include "tools/train/bend_fit.hpp"
 
 namespace plumb {
 namespace {
@@ -108,6 +109,9 @@ double memory_of_repetition(double repetition, double step_ratio) {
 GroundModel fit_targets(const std::vector<DriveSamples>& drives, const GroundModel& start,
                         std::span<const Target> targets) {
   GroundModel model = start;
+  // First: the cues' rows of drives without true planes lean on it.
+  if (std::find(targets.begin(), targets.end(), Target::kTravel) != targets.end())
+    model.bend = fit_bend(drives).value_or(start.bend);
   for (const Target target : targets) {
     const auto rows = rows_per_drive(target, drives, model);
     const std::vector<VarianceRow> all = all_rows(rows);

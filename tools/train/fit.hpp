@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-/// Fits the models of these targets, the cues' with their memories; what `start` holds and the samples say nothing about
+/// Fits the models of these targets, the cues' with their memories, travel's with the road's bend; what `start` holds and the samples say nothing about
 /// stays. A target without rows keeps its model. @pre drives not empty
 [[nodiscard]] GroundModel fit_targets(const std::vector<DriveSamples>& drives,
                                       const GroundModel& start,

@@ -8,7 +8,6 @@
 
 #include "modules/ground/ground_model_source.hpp"
 #include "platform/input_error.hpp"
-#include "tools/train/bend_fit.hpp"
 #include "tools/train/fit_report.hpp"
 
 namespace plumb {
@@ -70,8 +69,7 @@ void add_origin(const FitCommand& command, const std::vector<DriveSamples>& driv
 
 void fit_learned(const FitCommand& command, const std::vector<DriveSamples>& all,
                  const std::vector<DriveSamples>& drives, FitReport* report) {
-  GroundModel start = report->model;
-  if (!command.plane_only) start.bend = fit_bend(drives).value_or(start.bend);
+  const GroundModel start = report->model;
   const auto targets = command.plane_only ? std::span<const Target>(kPlaneTargets) : kTargets;
   if (all.size() > 1) report->held_out = leave_one_out(all, start, targets);
   report->model = fit_targets(drives, start, targets);
