@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
+#include "core/channels.hpp"
+#include "core/counters.hpp"
 #include "platform/bounded_decode.hpp"
-#include "platform/channels.hpp"
-#include "platform/counters.hpp"
 
 namespace plumb {
 

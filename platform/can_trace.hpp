@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/can_frame.hpp"
+#include "core/can_frame.hpp"
 
 namespace plumb {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/counters.hpp"
 #include "platform/bus.hpp"
-#include "platform/counters.hpp"
 #include "platform/stage_timer.hpp"
 #include "plumb/process_health_t.hpp"
 

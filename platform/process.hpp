@@ -13,13 +13,13 @@
 #include <memory>
 #include <string>
 
+#include "core/channels.hpp"
+#include "core/counters.hpp"
+#include "core/input_error.hpp"
 #include "platform/bus.hpp"
-#include "platform/channels.hpp"
 #include "platform/config.hpp"
-#include "platform/counters.hpp"
 #include "platform/event_loop.hpp"
 #include "platform/health.hpp"
-#include "platform/input_error.hpp"
 #include "platform/stage_timer.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): a library's name

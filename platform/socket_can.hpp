@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <string>
 
-#include "platform/can_frame.hpp"
-#include "platform/fixed_queue.hpp"
+#include "core/can_frame.hpp"
+#include "core/fixed_queue.hpp"
 
 namespace plumb {
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "modules/geometry/stage_probe.hpp"
+#include "core/stage_probe.hpp"
 
 namespace plumb {
 

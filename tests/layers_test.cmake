@@ -1,45 +1,52 @@
-# A pure library may not reach I/O, the clock, the transport or OpenCV. Only main.cpp, *_wire.*, *_node.* and *_source.* may,
-# and paper mode's SIFT.
-# Flow is one way: camera -> detect, vo -> ground -> objects/can; geometry, imaging and detections know nobody.
-file(GLOB_RECURSE files ${ROOT}/modules/*.hpp ${ROOT}/modules/*.cpp)
-set(failed FALSE)
-foreach(file ${files})
-  if(NOT file MATCHES "(main\\.cpp|_(wire|node)\\.(hpp|cpp)|_source[a-z_]*\\.(hpp|cpp)|ground/paper/sift_matcher\\.cpp)$")
-    file(STRINGS ${file} hits REGEX
-      "#include <(lcm/|iostream|fstream|cstdio|chrono|thread|mutex|opencv|linux/|sys/|unistd|toml)|#include \"(plumb/|platform/(bus|clock|process|log_file|socket_can|can_trace|v4l2|kitti/|number_file|config\\.hpp))")
-    if(hits)
-      message(SEND_ERROR "${file} is a pure library, but: ${hits}")
-    endif()
-  endif()
-endforeach()
+# Layers, lowest first. A file includes nothing of a later layer, and platform nothing of modules.
+#
+# Purity: core, and each module's own library, reach no I/O, clock, transport, OpenCV or platform. What may is told by its
+# place (datasets, chain, processes) or its name (*_wire.*, *_node.*, *_source.*).
+set(layers core platform
+  modules/datasets modules/detections modules/camera modules/detector modules/vo
+  modules/ground/types modules/ground/cues modules/ground/filter modules/ground/covariance modules/ground/ego modules/ground
+  modules/ground_paper modules/mount modules/objects modules/can modules/chain modules/processes
+  tools tests)
 
-set(order geometry imaging detections camera detect vo ground objects can)
-foreach(module ${order})
-  file(GLOB_RECURSE files ${ROOT}/modules/${module}/*.hpp ${ROOT}/modules/${module}/*.cpp)
-  list(FIND order ${module} rank)
-  foreach(file ${files})
-    foreach(later ${order})
-      list(FIND order ${later} later_rank)
-      if(later_rank GREATER rank)
-        file(STRINGS ${file} hits REGEX "#include \"modules/${later}/")
-        if(hits)
-          message(SEND_ERROR "${file} looks downstream: ${hits}")
-        endif()
-      endif()
-    endforeach()
+# The layer of a path below the root: the longest one that is a prefix of it.
+function(layer_of path result)
+  set(best "")
+  foreach(layer ${layers})
+    string(LENGTH "${layer}/" length)
+    string(SUBSTRING "${path}/" 0 ${length} head)
+    string(LENGTH "${best}" best_length)
+    if(head STREQUAL "${layer}/" AND length GREATER best_length)
+      set(best ${layer})
+    endif()
   endforeach()
-endforeach()
-file(GLOB_RECURSE files ${ROOT}/modules/*.hpp ${ROOT}/modules/*.cpp ${ROOT}/platform/*.hpp ${ROOT}/platform/*.cpp)
+  set(${result} "${best}" PARENT_SCOPE)
+endfunction()
+
+file(GLOB_RECURSE files RELATIVE ${ROOT}
+  ${ROOT}/core/*.?pp ${ROOT}/platform/*.?pp ${ROOT}/modules/*.?pp)
 foreach(file ${files})
-  file(STRINGS ${file} hits REGEX "#include \"(tools|tests)/")
-  if(hits)
-    message(SEND_ERROR "${file}: products know no tools, but: ${hits}")
+  layer_of(${file} layer)
+  if(layer STREQUAL "")
+    message(SEND_ERROR "${file} is in no layer")
+    continue()
   endif()
-endforeach()
-file(GLOB_RECURSE files ${ROOT}/platform/*.hpp ${ROOT}/platform/*.cpp)
-foreach(file ${files})
-  file(STRINGS ${file} hits REGEX "#include \"modules/(camera|detect|detections|vo|ground|objects|can)/")
+  list(FIND layers ${layer} rank)
+  file(STRINGS ${ROOT}/${file} includes REGEX "^#include \"(core|platform|modules|tools|tests)/")
+  foreach(include ${includes})
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${include}")
+    layer_of(${included} other)
+    list(FIND layers "${other}" other_rank)
+    if(other_rank EQUAL -1 OR other_rank GREATER rank)
+      message(SEND_ERROR "${file} (${layer}) includes ${included}, of a later layer")
+    endif()
+  endforeach()
+
+  if(file MATCHES "^(platform|modules/(datasets|chain|processes))/|_(wire|node|source)\\.(hpp|cpp)$")
+    continue()
+  endif()
+  file(STRINGS ${ROOT}/${file} hits REGEX
+    "#include <(lcm/|iostream|fstream|cstdio|chrono|thread|mutex|opencv|linux/|sys/|unistd|toml)|#include \"(plumb/|platform/)")
   if(hits)
-    message(SEND_ERROR "${file}: the platform knows no module, but: ${hits}")
+    message(SEND_ERROR "${file} belongs to a pure library, but: ${hits}")
   endif()
 endforeach()

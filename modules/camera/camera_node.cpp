@@ -2,7 +2,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "modules/imaging/image_wire.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "platform/process.hpp"
 
 namespace plumb {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/camera_model.hpp"
+#include "core/stage_probe.hpp"
 #include "modules/camera/camera_config.hpp"
 #include "modules/camera/front_end.hpp"
 #include "modules/camera/recorded_source.hpp"
-#include "modules/geometry/camera_model.hpp"
-#include "modules/geometry/stage_probe.hpp"
 #include "plumb/camera_calibration_t.hpp"
 #include "plumb/image_t.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "modules/imaging/image_view.hpp"
+#include "core/image_view.hpp"
 
 namespace plumb {
 

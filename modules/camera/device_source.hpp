@@ -13,9 +13,9 @@
 
 #include "modules/camera/camera_config.hpp"
 #include "modules/camera/convert.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "modules/camera/pacing.hpp"
 #include "modules/camera/recorded_source.hpp"
-#include "modules/imaging/image_wire.hpp"
 #include "platform/v4l2.hpp"
 
 namespace plumb {

@@ -10,13 +10,13 @@
 #include <cstdint>
 #include <string>
 
+#include "core/camera_model.hpp"
+#include "core/image_view.hpp"
+#include "core/stage_probe.hpp"
 #include "modules/camera/camera_config.hpp"
 #include "modules/camera/ego_mask.hpp"
 #include "modules/camera/image_health.hpp"
 #include "modules/camera/rectify.hpp"
-#include "modules/geometry/camera_model.hpp"
-#include "modules/geometry/stage_probe.hpp"
-#include "modules/imaging/image_view.hpp"
 
 namespace plumb {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "platform/kitti/png_image.hpp"
+#include "modules/datasets/kitti/png_image.hpp"
 #include "platform/process.hpp"
 
 namespace plumb {

@@ -8,7 +8,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "modules/camera/recorded_source.hpp"
-#include "platform/kitti/sequence.hpp"
+#include "modules/datasets/kitti/sequence.hpp"
 
 namespace plumb {
 

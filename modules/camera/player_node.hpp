@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include "core/counters.hpp"
 #include "modules/camera/pacing.hpp"
 #include "modules/camera/publish_node.hpp"
 #include "modules/camera/recorded_source.hpp"
-#include "platform/counters.hpp"
 #include "platform/process.hpp"
 
 namespace plumb {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/image_view.hpp"
 #include "modules/camera/camera_config.hpp"
-#include "modules/imaging/image_view.hpp"
 
 namespace plumb {
 

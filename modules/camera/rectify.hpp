@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/imaging/image_view.hpp"
+#include "core/image_view.hpp"
 
 namespace plumb {
 

@@ -14,7 +14,7 @@
 #include <limits>
 #include <span>
 
-#include "platform/can_frame.hpp"
+#include "core/can_frame.hpp"
 
 namespace plumb {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/channels.hpp"
 #include "modules/can/can_e2e.hpp"
 #include "modules/can/can_time.hpp"
-#include "platform/channels.hpp"
 
 namespace plumb {
 namespace {

@@ -13,11 +13,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/can_frame.hpp"
+#include "core/counters.hpp"
+#include "core/fixed_queue.hpp"
 #include "modules/can/can_codec.hpp"
 #include "modules/can/can_config.hpp"
-#include "platform/can_frame.hpp"
-#include "platform/counters.hpp"
-#include "platform/fixed_queue.hpp"
 
 namespace plumb {
 

@@ -2,18 +2,13 @@
 
 #include <cmath>
 
+#include "core/same_value.hpp"
 #include "plumb/detection_t.hpp"
 #include "plumb/vo_motion_t.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr bool same(CanEgoStatus ours, std::int8_t theirs) {
-  return static_cast<std::int8_t>(ours) == theirs;
-}
-constexpr bool same(CanPlaneStatus ours, std::int8_t theirs) {
-  return static_cast<std::int8_t>(ours) == theirs;
-}
 static_assert(same(CanEgoStatus::kOk, ego_motion_t::STATUS_OK));
 static_assert(same(CanEgoStatus::kInitializing, ego_motion_t::STATUS_INITIALIZING));
 static_assert(same(CanEgoStatus::kScaleHeld, ego_motion_t::STATUS_SCALE_HELD));

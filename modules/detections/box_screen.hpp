@@ -6,10 +6,10 @@
 #include <array>
 #include <cstdint>
 
+#include "core/camera_model.hpp"
 #include "modules/detections/detection.hpp"
 #include "modules/detections/detections_config.hpp"
 #include "modules/detections/road_plane.hpp"
-#include "modules/geometry/camera_model.hpp"
 
 namespace plumb {
 

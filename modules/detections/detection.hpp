@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "platform/fixed_vector.hpp"
+#include "core/fixed_vector.hpp"
 
 namespace plumb {
 

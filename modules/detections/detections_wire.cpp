@@ -1,14 +1,12 @@
 #include "modules/detections/detections_wire.hpp"
 
+#include "core/same_value.hpp"
+
 #include <cmath>
 
 namespace plumb {
 namespace {
 
-template <typename Ours>
-constexpr bool same(Ours ours, std::int8_t theirs) {
-  return static_cast<std::int8_t>(ours) == theirs;
-}
 static_assert(same(ObjectClass::kUnknown, detection_t::CLASS_UNKNOWN));
 static_assert(same(ObjectClass::kCar, detection_t::CLASS_CAR));
 static_assert(same(ObjectClass::kVan, detection_t::CLASS_VAN));

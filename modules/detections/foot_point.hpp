@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/camera_model.hpp"
 #include "modules/detections/road_plane.hpp"
-#include "modules/geometry/camera_model.hpp"
 
 namespace plumb {
 

@@ -4,20 +4,20 @@
 #include <array>
 #include <cmath>
 
-#include "modules/ground/cue_covariance.hpp"
-#include "modules/ground/cue_report.hpp"
-#include "modules/ground/dense_cue.hpp"
-#include "modules/ground/ego_motion.hpp"
-#include "modules/ground/ground_sight.hpp"
-#include "modules/ground/image_ring.hpp"
-#include "modules/ground/learned_covariance.hpp"
-#include "modules/ground/plane_angles.hpp"
-#include "modules/ground/plane_dissent.hpp"
-#include "modules/ground/plane_filter.hpp"
-#include "modules/ground/points_cue.hpp"
-#include "modules/ground/seen_height.hpp"
-#include "modules/ground/travel.hpp"
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
+#include "modules/ground/covariance/cue_covariance.hpp"
+#include "modules/ground/covariance/cue_report.hpp"
+#include "modules/ground/covariance/ground_sight.hpp"
+#include "modules/ground/covariance/learned_covariance.hpp"
+#include "modules/ground/covariance/plane_dissent.hpp"
+#include "modules/ground/covariance/seen_height.hpp"
+#include "modules/ground/cues/dense_cue.hpp"
+#include "modules/ground/cues/image_ring.hpp"
+#include "modules/ground/cues/points_cue.hpp"
+#include "modules/ground/cues/travel.hpp"
+#include "modules/ground/ego/ego_motion.hpp"
+#include "modules/ground/filter/plane_angles.hpp"
+#include "modules/ground/filter/plane_filter.hpp"
 
 namespace plumb {
 namespace {
@@ -120,6 +120,12 @@ GroundEstimator::GroundEstimator(const GroundConfig& config, const CameraModel& 
     : impl_(std::make_unique<Impl>(config, camera, model)) {}
 
 GroundEstimator::~GroundEstimator() = default;
+
+std::unique_ptr<GroundAlgorithm> make_ground_estimator(const GroundConfig& config,
+                                                       const CameraModel& camera,
+                                                       const GroundModel& model) {
+  return std::make_unique<GroundEstimator>(config, camera, model);
+}
 
 const GroundSight* GroundEstimator::sight() const { return &impl_->frame; }
 

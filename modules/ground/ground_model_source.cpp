@@ -73,7 +73,7 @@ std::string ground_model_text(const GroundModel& model) {
   visit_head(schema, version, text_model, writer);
   GroundModel::visit(text_model, writer);
   return "# How far plumb-ground trusts its cues. Written by plumb-train fit; the meaning of each "
-         "number is in\n# modules/ground/ground_model.hpp.\n" +
+         "number is in\n# modules/ground/covariance/ground_model.hpp.\n" +
          writer.sections();
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "modules/ground/ground_model.hpp"
+#include "modules/ground/covariance/ground_model.hpp"
 
 namespace plumb {
 

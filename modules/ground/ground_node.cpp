@@ -2,15 +2,14 @@
 
 #include <utility>
 
-#include "modules/ground/paper/ground_algorithm.hpp"
-
 namespace plumb {
 
 GroundNode::GroundNode(const GroundConfig& config, const DetectionsConfig& detections,
-                       StageProbe* probe, Sink sink, const GroundModel& model)
+                       StageProbe* probe, Sink sink, const GroundModel& model, Factory make)
     : config_(config),
       detections_(detections),
       model_(model),
+      make_(std::move(make)),
       probe_(probe),
       sink_(std::move(sink)) {}
 
@@ -24,7 +23,7 @@ const char* GroundNode::take_calibration(const camera_calibration_t& message) {
   camera_ = camera;
   decoder_.emplace(camera.width_px, camera.height_px);
   images_.emplace(camera.width_px, camera.height_px);
-  algorithm_ = make_ground_algorithm(config_, camera, model_);
+  algorithm_ = make_(config_, camera, model_);
   object_pitch_ = std::make_unique<ObjectPitch>(config_, detections_, camera, model_.objects_n3);
   return nullptr;
 }

@@ -14,15 +14,15 @@
 #include <optional>
 #include <span>
 
+#include "core/counters.hpp"
+#include "core/stage_probe.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "modules/detections/detections_wire.hpp"
-#include "modules/geometry/stage_probe.hpp"
+#include "modules/ground/cues/object_pitch.hpp"
 #include "modules/ground/ground.hpp"
 #include "modules/ground/ground_wire.hpp"
-#include "modules/ground/object_pitch.hpp"
 #include "modules/ground/pending_images.hpp"
-#include "modules/imaging/image_wire.hpp"
 #include "modules/vo/vo_wire.hpp"
-#include "platform/counters.hpp"
 
 namespace plumb {
 
@@ -31,9 +31,14 @@ class GroundNode {
   /// Takes each result, in the order of the motions.
   using Sink = std::function<void(const ground_plane_t&, const ego_motion_t&)>;
 
+  /// Makes the estimator, once the camera is known.
+  using Factory = std::function<std::unique_ptr<GroundAlgorithm>(
+      const GroundConfig&, const CameraModel&, const GroundModel&)>;
+
   /// `probe` outlives the node; a "decode" stage is marked before the estimator's own.
   GroundNode(const GroundConfig& config, const DetectionsConfig& detections, StageProbe* probe,
-             Sink sink, const GroundModel& model = built_in_ground_model());
+             Sink sink, const GroundModel& model = built_in_ground_model(),
+             Factory make = make_ground_estimator);
 
   /// Null when taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
@@ -66,6 +71,7 @@ class GroundNode {
   GroundConfig config_;
   DetectionsConfig detections_;
   GroundModel model_;
+  Factory make_;
   StageProbe* probe_;
   Sink sink_;
   CameraModel camera_;

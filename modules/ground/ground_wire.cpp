@@ -2,16 +2,13 @@
 
 #include <cmath>
 
-#include "modules/geometry/pose_wire.hpp"
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
+#include "core/pose_wire.hpp"
+#include "core/same_value.hpp"
 
 namespace plumb {
 namespace {
 
-template <typename Ours>
-constexpr bool same(Ours ours, std::int8_t theirs) {
-  return static_cast<std::int8_t>(ours) == theirs;
-}
 static_assert(same(GroundStatus::kOk, ground_plane_t::STATUS_OK));
 static_assert(same(GroundStatus::kInitializing, ground_plane_t::STATUS_INITIALIZING));
 static_assert(same(GroundStatus::kHeld, ground_plane_t::STATUS_HELD));
@@ -31,15 +28,6 @@ static_assert(same(EgoStatus::kScaleHeld, ego_motion_t::STATUS_SCALE_HELD));
 static_assert(same(EgoStatus::kStandstill, ego_motion_t::STATUS_STANDSTILL));
 static_assert(same(EgoStatus::kCoasting, ego_motion_t::STATUS_COASTING));
 static_assert(same(EgoStatus::kLost, ego_motion_t::STATUS_LOST));
-static_assert(same(MountStatus::kCollecting, mount_t::STATUS_COLLECTING));
-static_assert(same(MountStatus::kUnsteady, mount_t::STATUS_UNSTEADY));
-static_assert(same(MountStatus::kSteady, mount_t::STATUS_STEADY));
-static_assert(same(MountStatus::kMoved, mount_t::STATUS_MOVED));
-static_assert(same(MountReason::kNone, mount_t::REASON_NONE));
-static_assert(same(MountReason::kNoMotion, mount_t::REASON_NO_MOTION));
-static_assert(same(MountReason::kNoPlane, mount_t::REASON_NO_PLANE));
-static_assert(same(MountReason::kSlow, mount_t::REASON_SLOW));
-static_assert(same(MountReason::kTurning, mount_t::REASON_TURNING));
 static_assert(same(kCueDense, ground_plane_t::CUE_DENSE));
 static_assert(same(kCuePoints, ground_plane_t::CUE_POINTS));
 static_assert(same(kCueObjects, ground_plane_t::CUE_OBJECTS));
@@ -181,20 +169,6 @@ void to_wire(const GroundOutput& output, ego_motion_t* message) {
   message->distance_m = ego.distance_m;
   message->log_scale = ego.log_scale;
   message->log_scale_std = ego.log_scale_std;
-}
-
-void to_wire(const MountReport& report, std::int64_t capture_us, mount_t* message) {
-  message->utime = capture_us;
-  message->status = static_cast<std::int8_t>(report.status);
-  message->reason = static_cast<std::int8_t>(report.reason);
-  message->progress = report.progress;
-  message->num_stretches = report.num_stretches;
-  for (int i = 0; i < 3; ++i) {
-    message->reference_rad[i] = report.reference ? report.reference->mean_rad(i) : kNan;
-    message->reference_std_rad[i] = report.reference ? report.reference->std_rad(i) : kNan;
-    message->recent_rad[i] = report.recent_rad(i);
-    message->spread_rad[i] = report.spread_rad(i);
-  }
 }
 
 const char* from_wire(const ground_plane_t& plane, const ego_motion_t& ego, GroundOutput* output) {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/imaging/image_wire.hpp"
+#include "modules/camera/image_wire.hpp"
 
 namespace plumb {
 

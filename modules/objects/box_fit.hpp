@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "core/camera_model.hpp"
 #include "modules/detections/road_plane.hpp"
-#include "modules/geometry/camera_model.hpp"
 #include "modules/objects/cuboid.hpp"
 
 namespace plumb {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/camera_model.hpp"
 #include "modules/detections/road_plane.hpp"
-#include "modules/geometry/camera_model.hpp"
 
 namespace plumb {
 

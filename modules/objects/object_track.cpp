@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/numbers.hpp"
 #include "modules/detections/box_screen.hpp"
-#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {

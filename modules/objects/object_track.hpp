@@ -8,9 +8,9 @@
 
 #include <cstdint>
 
+#include "core/camera_model.hpp"
 #include "modules/detections/detection.hpp"
 #include "modules/detections/detections_config.hpp"
-#include "modules/geometry/camera_model.hpp"
 #include "modules/objects/box_fit.hpp"
 #include "modules/objects/objects_config.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
 #include "modules/detections/box_screen.hpp"
-#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {

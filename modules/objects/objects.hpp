@@ -16,12 +16,12 @@
 #include <array>
 #include <cstdint>
 
+#include "core/camera_model.hpp"
+#include "core/fixed_vector.hpp"
 #include "modules/detections/detection.hpp"
 #include "modules/detections/detections_config.hpp"
-#include "modules/geometry/camera_model.hpp"
 #include "modules/objects/object_track.hpp"
 #include "modules/objects/objects_config.hpp"
-#include "platform/fixed_vector.hpp"
 
 namespace plumb {
 

@@ -14,13 +14,13 @@
 #include <functional>
 #include <optional>
 
+#include "core/fixed_queue.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "modules/detections/detections_wire.hpp"
-#include "modules/ground/ground_config.hpp"
 #include "modules/ground/ground_wire.hpp"
-#include "modules/imaging/image_wire.hpp"
+#include "modules/ground/types/ground_config.hpp"
 #include "modules/objects/objects.hpp"
 #include "modules/objects/objects_wire.hpp"
-#include "platform/fixed_queue.hpp"
 
 namespace plumb {
 

@@ -2,16 +2,13 @@
 
 #include <cmath>
 
-#include "modules/geometry/pose_wire.hpp"
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
+#include "core/pose_wire.hpp"
+#include "core/same_value.hpp"
 
 namespace plumb {
 namespace {
 
-template <typename Ours>
-constexpr bool same(Ours ours, std::int8_t theirs) {
-  return static_cast<std::int8_t>(ours) == theirs;
-}
 static_assert(same(ObjectStatus::kMeasured, object_t::STATUS_MEASURED));
 static_assert(same(ObjectStatus::kPredicted, object_t::STATUS_PREDICTED));
 static_assert(same(ObjectStatus::kNotLocalised, object_t::STATUS_NOT_LOCALISED));

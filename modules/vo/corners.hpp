@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "modules/imaging/image_view.hpp"
+#include "core/image_view.hpp"
 
 namespace plumb::vo {
 

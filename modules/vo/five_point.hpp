@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "platform/fixed_vector.hpp"
+#include "core/fixed_vector.hpp"
 
 namespace plumb::vo {
 

@@ -1,7 +1,7 @@
 /// Whether an image can be used at all.
 #pragma once
 
-#include "modules/imaging/image_view.hpp"
+#include "core/image_view.hpp"
 #include "modules/vo/vo.hpp"
 
 namespace plumb::vo {

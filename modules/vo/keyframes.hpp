@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "modules/geometry/camera_model.hpp"
-#include "modules/imaging/pyramid.hpp"
+#include "core/camera_model.hpp"
+#include "core/pyramid.hpp"
 #include "modules/vo/corners.hpp"
 #include "modules/vo/track.hpp"
 #include "modules/vo/vo_config.hpp"

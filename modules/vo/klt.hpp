@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "modules/imaging/pyramid.hpp"
+#include "core/pyramid.hpp"
 
 namespace plumb::vo {
 

@@ -3,7 +3,7 @@
 /// Units  [vo]/s and rad/s, in the camera's own frame.
 #pragma once
 
-#include "modules/geometry/se3.hpp"
+#include "core/se3.hpp"
 
 namespace plumb::vo {
 

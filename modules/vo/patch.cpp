@@ -119,9 +119,9 @@ bool Patch<kHalf>::prepare(const Raw& raw) {
       sum_y += gy_[j][k];
     }
   }
-  mean_ = lane_sum(sum) * kScale;
-  const float mean_x = lane_sum(sum_x) * kScale;
-  const float mean_y = lane_sum(sum_y) * kScale;
+  mean_ = sum_float(sum) * kScale;
+  const float mean_x = sum_float(sum_x) * kScale;
+  const float mean_y = sum_float(sum_y) * kScale;
   Float8 tt{}, xx{}, xy{}, yy{}, xt{}, yt{};
   for (int j = 0; j < kSize; ++j) {
     for (int k = 0; k < kVectors; ++k) {
@@ -137,12 +137,12 @@ bool Patch<kHalf>::prepare(const Raw& raw) {
       yt += y * t;
     }
   }
-  tt_ = lane_sum(tt);
-  a_ = lane_sum(xx);
-  b_ = lane_sum(xy);
-  c_ = lane_sum(yy);
-  gxt_ = lane_sum(xt);
-  gyt_ = lane_sum(yt);
+  tt_ = sum_float(tt);
+  a_ = sum_float(xx);
+  b_ = sum_float(xy);
+  c_ = sum_float(yy);
+  gxt_ = sum_float(xt);
+  gyt_ = sum_float(yt);
   det_ = a_ * c_ - b_ * b_;
   return tt_ > kMinVarianceGrey2 * kPixels && det_ > kMinIsotropy * (a_ + c_) * (a_ + c_);
 }
@@ -166,7 +166,7 @@ typename Patch<kHalf>::Sums Patch<kHalf>::compare(const std::uint8_t* corner, st
       py += v * gy_[j][k];
     }
   }
-  return {lane_sum(p), lane_sum(pp), lane_sum(pt), lane_sum(px), lane_sum(py)};
+  return {sum_float(p), sum_float(pp), sum_float(pt), sum_float(px), sum_float(py)};
 }
 
 template <int kHalf>

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "modules/imaging/image_view.hpp"
-#include "modules/vo/simd.hpp"
+#include "core/image_view.hpp"
+#include "core/simd.hpp"
 
 namespace plumb::vo {
 

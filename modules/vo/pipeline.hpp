@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "modules/imaging/pyramid.hpp"
+#include "core/pyramid.hpp"
 #include "modules/vo/keyframes.hpp"
 #include "modules/vo/motion_model.hpp"
 #include "modules/vo/pose.hpp"

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "modules/geometry/se3.hpp"
+#include "core/se3.hpp"
 #include "modules/vo/track.hpp"
 #include "modules/vo/window.hpp"
 

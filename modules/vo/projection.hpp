@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "modules/geometry/se3.hpp"
+#include "core/se3.hpp"
 
 namespace plumb::vo {
 

@@ -1,7 +1,7 @@
 /// Triangulated points below the horizon, for whoever looks for the road.
 #pragma once
 
-#include "modules/geometry/camera_model.hpp"
+#include "core/camera_model.hpp"
 #include "modules/vo/track.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/window.hpp"

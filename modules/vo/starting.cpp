@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "modules/vo/inverse_depth.hpp"
 #include "modules/vo/pipeline.hpp"
-#include "platform/numbers.hpp"
 
 namespace plumb::vo {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "modules/geometry/se3.hpp"
+#include "core/se3.hpp"
 #include "modules/vo/five_point.hpp"
 #include "modules/vo/random.hpp"
 

@@ -14,12 +14,12 @@
 #include <cstdint>
 #include <memory>
 
-#include "modules/geometry/camera_model.hpp"
-#include "modules/geometry/se3.hpp"
-#include "modules/geometry/stage_probe.hpp"
-#include "modules/imaging/image_view.hpp"
+#include "core/camera_model.hpp"
+#include "core/fixed_vector.hpp"
+#include "core/image_view.hpp"
+#include "core/se3.hpp"
+#include "core/stage_probe.hpp"
 #include "modules/vo/vo_config.hpp"
-#include "platform/fixed_vector.hpp"
 
 namespace plumb {
 

@@ -8,11 +8,11 @@
 #include <optional>
 #include <span>
 
-#include "modules/geometry/stage_probe.hpp"
-#include "modules/imaging/image_wire.hpp"
+#include "core/counters.hpp"
+#include "core/stage_probe.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/vo_wire.hpp"
-#include "platform/counters.hpp"
 
 namespace plumb {
 

@@ -4,17 +4,12 @@
 #include <cmath>
 #include <cstring>
 
-#include "modules/geometry/pose_wire.hpp"
+#include "core/pose_wire.hpp"
+#include "core/same_value.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr bool same(VoStatus ours, std::int8_t theirs) {
-  return static_cast<std::int8_t>(ours) == theirs;
-}
-constexpr bool same(VoReason ours, std::int8_t theirs) {
-  return static_cast<std::int8_t>(ours) == theirs;
-}
 static_assert(same(VoStatus::kOk, vo_motion_t::STATUS_OK));
 static_assert(same(VoStatus::kInitializing, vo_motion_t::STATUS_INITIALIZING));
 static_assert(same(VoStatus::kStandstill, vo_motion_t::STATUS_STANDSTILL));

@@ -11,10 +11,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/geometry/se3.hpp"
-#include "modules/imaging/image_view.hpp"
+#include "core/fixed_vector.hpp"
+#include "core/image_view.hpp"
+#include "core/se3.hpp"
 #include "modules/vo/track.hpp"
-#include "platform/fixed_vector.hpp"
 
 namespace plumb::vo {
 

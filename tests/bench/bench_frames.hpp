@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "modules/geometry/camera_model.hpp"
-#include "modules/geometry/stage_probe.hpp"
+#include "core/camera_model.hpp"
+#include "core/stage_probe.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/scene.hpp"
 

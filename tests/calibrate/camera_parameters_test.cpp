@@ -1,8 +1,8 @@
-#include "tools/calibrate/camera_parameters.hpp"
+#include "tools/learn/calibrate/camera_parameters.hpp"
 
 #include <gtest/gtest.h>
 
-#include "platform/input_error.hpp"
+#include "core/input_error.hpp"
 #include "tests/support/expect_throw.hpp"
 
 namespace plumb {

@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "modules/imaging/image_wire.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "platform/bus.hpp"
 #include "platform/clock.hpp"
 #include "plumb/process_health_t.hpp"

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "modules/imaging/image_view.hpp"
+#include "core/image_view.hpp"
 
 namespace plumb::test {
 

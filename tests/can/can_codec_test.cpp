@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
+#include "core/numbers.hpp"
 #include "modules/can/can_e2e.hpp"
-#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {

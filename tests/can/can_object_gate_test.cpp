@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "modules/can/can_gate.hpp"
 #include "modules/can/can_wire.hpp"
-#include "platform/numbers.hpp"
 #include "plumb/detection_t.hpp"
 
 namespace plumb {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
 #include "tests/can/recording_sink.hpp"
 
 namespace plumb {

@@ -12,6 +12,7 @@
 #include "plumb/mount_t.hpp"
 #include "plumb/object_t.hpp"
 #include "plumb/vo_motion_t.hpp"
+#include "plumb_paths.hpp"
 #include "tests/can/dbc.hpp"
 
 namespace plumb {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "modules/can/can_gate.hpp"
-#include "platform/numbers.hpp"
 #include "tests/can/recording_sink.hpp"
 
 namespace plumb::test {

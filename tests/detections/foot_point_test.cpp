@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
 #include "tests/support/central_difference.hpp"
 
 namespace plumb {

@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
+#include "core/camera_model.hpp"
+#include "core/numbers.hpp"
 #include "modules/detections/detection.hpp"
 #include "modules/detections/road_plane.hpp"
-#include "modules/geometry/camera_model.hpp"
-#include "platform/numbers.hpp"
 
 namespace plumb::test {
 

@@ -1,5 +1,5 @@
 /// Objects drawn onto frames: where their edges lie, and what is left out.
-#include "tools/draw/overlay.hpp"
+#include "tools/run/draw/overlay.hpp"
 
 #include <gtest/gtest.h>
 

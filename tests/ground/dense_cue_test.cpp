@@ -1,11 +1,11 @@
-#include "modules/ground/dense_cue.hpp"
+#include "modules/ground/cues/dense_cue.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "modules/ground/cue_covariance.hpp"
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
+#include "modules/ground/covariance/cue_covariance.hpp"
 #include "tests/ground/road_scene.hpp"
 #include "tests/support/central_difference.hpp"
 

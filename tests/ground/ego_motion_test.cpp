@@ -1,11 +1,11 @@
-#include "modules/ground/ego_motion.hpp"
+#include "modules/ground/ego/ego_motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "modules/ground/plane_angles.hpp"
+#include "modules/ground/filter/plane_angles.hpp"
 #include "tests/ground/road_scene.hpp"
 
 namespace plumb {

@@ -1,5 +1,6 @@
 /// Model files: the shipped one is the built-in one; what does not fit is refused. Features, bounds, covariances.
 #include "modules/ground/ground_model_source.hpp"
+#include "plumb_paths.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,8 @@
 #include <cmath>
 #include <map>
 
-#include "modules/ground/learned_covariance.hpp"
-#include "modules/ground/plane_filter.hpp"
+#include "modules/ground/covariance/learned_covariance.hpp"
+#include "modules/ground/filter/plane_filter.hpp"
 #include "platform/config.hpp"
 #include "tests/support/temp_folder.hpp"
 

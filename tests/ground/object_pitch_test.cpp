@@ -1,4 +1,4 @@
-#include "modules/ground/object_pitch.hpp"
+#include "modules/ground/cues/object_pitch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "modules/ground/plane_angles.hpp"
+#include "modules/ground/filter/plane_angles.hpp"
 
 #include <gtest/gtest.h>
 

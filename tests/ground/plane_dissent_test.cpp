@@ -1,11 +1,11 @@
 /// What the dissent of cues and fused plane is taken to be, over way and through frames without a cue.
-#include "modules/ground/plane_dissent.hpp"
+#include "modules/ground/covariance/plane_dissent.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "modules/ground/plane_filter.hpp"
+#include "modules/ground/filter/plane_filter.hpp"
 
 namespace plumb {
 namespace {

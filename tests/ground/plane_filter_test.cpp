@@ -1,4 +1,4 @@
-#include "modules/ground/plane_filter.hpp"
+#include "modules/ground/filter/plane_filter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "modules/ground/points_cue.hpp"
+#include "modules/ground/cues/points_cue.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "modules/ground/travel.hpp"
+#include "modules/ground/cues/travel.hpp"
 #include "tests/ground/road_scene.hpp"
 
 namespace plumb {

@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "modules/geometry/camera_model.hpp"
-#include "modules/geometry/se3.hpp"
-#include "modules/imaging/image_view.hpp"
+#include "core/camera_model.hpp"
+#include "core/image_view.hpp"
+#include "core/se3.hpp"
 #include "modules/vo/vo.hpp"
 
 namespace plumb::test {

@@ -34,7 +34,7 @@ std::vector<std::uint8_t> bytes_of(const Message& message) {
 
 Expected replay(const std::string& log) {
   Expected expected;
-  Replay replay(
+  Chain replay(
       PlumbConfig{}, 1, nullptr,
       [&](const FrameRecord& frame) {
         EXPECT_EQ(nullptr, frame.refused) << frame.refused;

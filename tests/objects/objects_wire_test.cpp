@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "modules/detections/detections_wire.hpp"
 #include "modules/objects/objects_node.hpp"
 #include "platform/bounded_decode.hpp"
-#include "platform/numbers.hpp"
 #include "tests/objects/cuboid_scene.hpp"
 
 namespace plumb {

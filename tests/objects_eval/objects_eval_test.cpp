@@ -5,13 +5,13 @@
 #include <fstream>
 #include <string>
 
-#include "platform/input_error.hpp"
-#include "platform/text.hpp"
+#include "core/input_error.hpp"
+#include "modules/datasets/text.hpp"
 #include "tests/objects/cuboid_scene.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/kitti_tracking/kitti_tracking.hpp"
-#include "tools/objects_eval/object_depth.hpp"
+#include "tools/datasets/kitti_tracking/kitti_tracking.hpp"
+#include "tools/evaluate/objects_eval/object_depth.hpp"
 
 namespace plumb {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "modules/datasets/text.hpp"
 #include "modules/detections/road_plane.hpp"
-#include "platform/text.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace plumb::test {

@@ -7,7 +7,7 @@
 #include "tests/objects_eval/placed_drive.hpp"
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/run_program.hpp"
-#include "tools/objects_eval/placement_report.hpp"
+#include "tools/evaluate/objects_eval/placement_report.hpp"
 
 namespace plumb {
 namespace {

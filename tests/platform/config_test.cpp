@@ -1,11 +1,12 @@
 #include "platform/config.hpp"
+#include "plumb_paths.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "modules/config.hpp"
+#include "modules/chain/plumb_config.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace plumb {

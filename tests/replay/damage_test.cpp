@@ -35,7 +35,7 @@ struct Tally {
 Tally replay_file(const std::filesystem::path& path) {
   Tally tally;
   LogReader reader(path.string());
-  Replay replay(PlumbConfig{}, 1, nullptr, [&](const FrameRecord&) { ++tally.num_frames; });
+  Chain replay(PlumbConfig{}, 1, nullptr, [&](const FrameRecord&) { ++tally.num_frames; });
   for (LogEvent event; reader.next(&event);) replay.take(event);
   replay.finish();
   tally.num_refused = static_cast<int>(replay.num_refused());

@@ -1,10 +1,10 @@
-#include "tools/replay/frame_csv.hpp"
+#include "tools/run/replay/frame_csv.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "platform/number_file.hpp"
+#include "modules/datasets/number_file.hpp"
 
 namespace plumb {
 namespace {

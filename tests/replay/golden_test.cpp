@@ -11,9 +11,10 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "platform/number_file.hpp"
+#include "modules/datasets/number_file.hpp"
+#include "plumb_paths.hpp"
 #include "tests/replay/street_log.hpp"
-#include "tools/replay/frame_csv.hpp"
+#include "tools/run/replay/frame_csv.hpp"
 
 namespace plumb {
 namespace {
@@ -35,10 +36,9 @@ bool same_cell(std::string_view a, std::string_view b) {
 
 TEST(Golden, TheRenderedStreetGivesTheCommittedResults) {
   std::vector<std::string> lines = {frame_csv_header(false)};
-  test::replay_events(test::street_events(), nullptr,
-                      [&](const Replay&, const FrameRecord& record) {
-                        lines.push_back(frame_csv_row(record, false));
-                      });
+  test::replay_events(test::street_events(), nullptr, [&](const Chain&, const FrameRecord& record) {
+    lines.push_back(frame_csv_row(record, false));
+  });
   if (std::getenv("PLUMB_UPDATE_EXPECTED") != nullptr) {
     std::ofstream file(expected_file());
     for (const std::string& line : lines) file << line << "\n";

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "modules/chain/chain.hpp"
 #include "tests/replay/street_boxes.hpp"
-#include "tools/replay/objects_csv.hpp"
-#include "tools/replay/replay.hpp"
+#include "tools/run/replay/objects_csv.hpp"
 
 namespace plumb {
 namespace {
@@ -21,7 +21,7 @@ struct CanCounter final : CanSink {
 
 std::vector<objects_t> replay_objects(const std::vector<test::StoredEvent>& events, CanSink* can) {
   std::vector<objects_t> lists;
-  Replay replay(
+  Chain replay(
       PlumbConfig{}, 1, can, [](const FrameRecord&) {},
       [&](const objects_t& objects) { lists.push_back(objects); });
   for (const test::StoredEvent& event : events) replay.take(event.view());
@@ -75,7 +75,7 @@ TEST(ReplayObjects, RefusesDetectionsThatDoNotDecode) {
     break;
   }
   std::int64_t num_lists = 0;
-  Replay replay(
+  Chain replay(
       PlumbConfig{}, 1, nullptr, [](const FrameRecord&) {}, [&](const objects_t&) { ++num_lists; });
   for (const test::StoredEvent& event : events) replay.take(event.view());
   EXPECT_EQ(replay.num_refused(), 1);

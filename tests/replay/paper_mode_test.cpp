@@ -20,8 +20,8 @@ TEST(PaperMode, FollowsARenderedDriveThroughTheWholeChain) {
   Counter can;
   double x_m = 0.0, z_m = 0.0;
   int num_ok = 0;
-  Replay* running = nullptr;
-  Replay replay(config, 1, &can, [&](const FrameRecord& record) {
+  Chain* running = nullptr;
+  Chain replay(config, 1, &can, [&](const FrameRecord& record) {
     ASSERT_NE(record.plane, nullptr);
     ASSERT_NE(record.ego, nullptr);
     EXPECT_EQ(record.refused, nullptr);

@@ -1,4 +1,4 @@
-#include "tools/replay/pose_track.hpp"
+#include "tools/run/replay/pose_track.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/chain/chain.hpp"
 #include "platform/log_file.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/eval/kitti_metric.hpp"
-#include "tools/kitti2lcm/convert.hpp"
-#include "tools/replay/pose_track.hpp"
-#include "tools/replay/replay.hpp"
+#include "tools/evaluate/eval/kitti_metric.hpp"
+#include "tools/run/kitti2lcm/convert.hpp"
+#include "tools/run/replay/pose_track.hpp"
 
 namespace plumb {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 std::vector<PoseMatrix> replay_poses(const std::filesystem::path& log, std::uint64_t seed) {
   std::string text;
   PoseTrack track;
-  Replay replay(PlumbConfig{}, seed, nullptr, [&](const FrameRecord& record) {
+  Chain replay(PlumbConfig{}, seed, nullptr, [&](const FrameRecord& record) {
     EXPECT_EQ(record.refused, nullptr);
     text += track.row(record.ego) + "\n";
   });

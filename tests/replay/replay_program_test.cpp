@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "platform/kitti/pose_file.hpp"
-#include "platform/number_file.hpp"
+#include "modules/datasets/kitti/pose_file.hpp"
+#include "modules/datasets/number_file.hpp"
 #include "tests/replay/street_log.hpp"
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,11 +1,11 @@
-#include "tools/replay/replay.hpp"
+#include "modules/chain/chain.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/replay/street_log.hpp"
-#include "tools/eval/kitti_metric.hpp"
-#include "tools/replay/frame_csv.hpp"
-#include "tools/replay/pose_track.hpp"
+#include "tools/evaluate/eval/kitti_metric.hpp"
+#include "tools/run/replay/frame_csv.hpp"
+#include "tools/run/replay/pose_track.hpp"
 
 namespace plumb {
 namespace {
@@ -35,11 +35,11 @@ Outcome run(const std::vector<StoredEvent>& events) {
   PoseTrack track;
   replay_events(
       events, &outcome.can,
-      [&](const Replay&, const FrameRecord& record) {
+      [&](const Chain&, const FrameRecord& record) {
         outcome.rows.push_back(frame_csv_row(record, false));
         outcome.poses.push_back(track.row(record.ego));
       },
-      [&](const Replay& replay) {
+      [&](const Chain& replay) {
         outcome.num_refused = replay.num_refused();
         outcome.num_lost = replay.num_lost();
         outcome.first_refusal = replay.first_refusal();
@@ -49,7 +49,7 @@ Outcome run(const std::vector<StoredEvent>& events) {
 
 TEST(Replay, FollowsARenderedDrive) {
   std::vector<PoseMatrix> est;
-  replay_events(street_events(), nullptr, [&](const Replay&, const FrameRecord& record) {
+  replay_events(street_events(), nullptr, [&](const Chain&, const FrameRecord& record) {
     ASSERT_NE(record.ego, nullptr);
     EXPECT_EQ(record.refused, nullptr);
     est.push_back(PoseMatrix::Identity());

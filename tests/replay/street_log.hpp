@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "modules/imaging/image_wire.hpp"
-#include "platform/channels.hpp"
+#include "core/channels.hpp"
+#include "modules/camera/image_wire.hpp"
+#include "modules/chain/chain.hpp"
 #include "platform/log_file.hpp"
 #include "tests/support/scene.hpp"
-#include "tools/replay/replay.hpp"
 
 namespace plumb::test {
 
@@ -76,10 +76,10 @@ inline void write_log(const std::string& path, const std::vector<StoredEvent>& e
 
 /// Feeds `events` and hands each record to `take`.
 inline void replay_events(const std::vector<StoredEvent>& events, CanSink* can,
-                          const std::function<void(const Replay&, const FrameRecord&)>& take,
-                          const std::function<void(const Replay&)>& at_end = {}) {
-  const Replay* self = nullptr;
-  Replay replay(PlumbConfig{}, 1, can, [&](const FrameRecord& record) { take(*self, record); });
+                          const std::function<void(const Chain&, const FrameRecord&)>& take,
+                          const std::function<void(const Chain&)>& at_end = {}) {
+  const Chain* self = nullptr;
+  Chain replay(PlumbConfig{}, 1, can, [&](const FrameRecord& record) { take(*self, record); });
   self = &replay;
   for (const StoredEvent& event : events) replay.take(event.view());
   replay.finish();

@@ -1,10 +1,10 @@
-#include "tools/replay/text_output.hpp"
+#include "tools/run/replay/text_output.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/replay/summary.hpp"
+#include "tools/run/replay/summary.hpp"
 
 namespace plumb {
 namespace {

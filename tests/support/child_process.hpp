@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "plumb_paths.hpp"
+
 namespace plumb::test {
 
 class ChildProcess {

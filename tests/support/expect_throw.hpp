@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "platform/input_error.hpp"
+#include "core/input_error.hpp"
 
 namespace plumb::test {
 

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "plumb_paths.hpp"
+
 namespace plumb::test {
 
 /// Folder of one real sequence ("odometry/sequences/04_000-050", "raw/drive0039_024-400"), empty when not here.

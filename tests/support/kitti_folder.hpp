@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "platform/text.hpp"
+#include "modules/datasets/text.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace plumb::test {

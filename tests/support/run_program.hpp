@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "plumb_paths.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -1,10 +1,10 @@
-#include "tools/kitti2lcm/convert.hpp"
+#include "tools/run/kitti2lcm/convert.hpp"
 
 #include <gtest/gtest.h>
 
-#include "modules/imaging/image_wire.hpp"
+#include "core/channels.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "platform/bounded_decode.hpp"
-#include "platform/channels.hpp"
 #include "platform/log_file.hpp"
 #include "plumb/camera_calibration_t.hpp"
 #include "plumb/detections_t.hpp"

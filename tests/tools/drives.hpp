@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "modules/geometry/se3.hpp"
-#include "platform/kitti/pose_file.hpp"
+#include "core/se3.hpp"
+#include "modules/datasets/kitti/pose_file.hpp"
 
 namespace plumb::test {
 

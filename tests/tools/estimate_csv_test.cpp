@@ -1,4 +1,4 @@
-#include "tools/eval/estimate_csv.hpp"
+#include "tools/evaluate/eval/estimate_csv.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "plumb_paths.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace plumb::test {
@@ -17,8 +18,9 @@ struct Result {
 };
 
 Result height_error(const TempFolder& folder, const std::string& arguments) {
-  const std::string command = std::string(PLUMB_SOURCE_DIR) + "/tools/height_error " + arguments +
-                              " >" + (folder / "out").string() + " 2>" + (folder / "err").string();
+  const std::string command = std::string(PLUMB_SOURCE_DIR) + "/tools/evaluate/height_error " +
+                              arguments + " >" + (folder / "out").string() + " 2>" +
+                              (folder / "err").string();
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder / "out"),
           read_text(folder / "err")};

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "platform/log_file.hpp"
+#include "plumb_paths.hpp"
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/kitti_folder.hpp"

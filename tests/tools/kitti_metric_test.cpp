@@ -1,4 +1,4 @@
-#include "tools/eval/kitti_metric.hpp"
+#include "tools/evaluate/eval/kitti_metric.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/eval/plane_metric.hpp"
+#include "tools/evaluate/eval/plane_metric.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/eval/scale_ratio.hpp"
+#include "tools/evaluate/eval/scale_ratio.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/eval/trajectory_report.hpp"
+#include "tools/evaluate/eval/trajectory_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// How roads bend and how well the direction of travel is known, out of drives drawn with both.
-#include "tools/train/bend_fit.hpp"
+#include "tools/learn/train/bend_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "tests/train/drawn.hpp"
-#include "tools/train/fit.hpp"
+#include "tools/learn/train/fit.hpp"
 
 namespace plumb {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/train/sample_file.hpp"
-#include "tools/train/variance_fit.hpp"
+#include "tools/learn/train/sample_file.hpp"
+#include "tools/learn/train/variance_fit.hpp"
 
 namespace plumb::test {
 

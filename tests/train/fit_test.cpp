@@ -1,11 +1,11 @@
 /// The whole fit: cues, memory, road, deviations of a drive, the published method's lines, held-out scores.
-#include "tools/train/fit.hpp"
+#include "tools/learn/train/fit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "modules/ground/learned_covariance.hpp"
+#include "modules/ground/covariance/learned_covariance.hpp"
 #include "tests/train/drawn.hpp"
 
 namespace plumb {

@@ -1,5 +1,5 @@
 /// Sample files: what is written is read back; what is not whole, of this version or of one kind is refused.
-#include "tools/train/sample_file.hpp"
+#include "tools/learn/train/sample_file.hpp"
 
 #include <gtest/gtest.h>
 

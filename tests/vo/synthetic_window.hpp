@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "modules/geometry/camera_model.hpp"
+#include "core/camera_model.hpp"
 #include "modules/vo/track.hpp"
 #include "modules/vo/window.hpp"
 

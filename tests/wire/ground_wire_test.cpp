@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
 #include "tests/wire/sample_output.hpp"
 
 namespace plumb {

@@ -1,4 +1,4 @@
-#include "modules/imaging/image_wire.hpp"
+#include "modules/camera/image_wire.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // From bytes to bytes without the heap: decode, from_wire, to_wire, encode.
 #include <gtest/gtest.h>
 
+#include "modules/camera/image_wire.hpp"
 #include "modules/ground/ground_wire.hpp"
 #include "modules/ground/pending_images.hpp"
-#include "modules/imaging/image_wire.hpp"
 #include "modules/vo/vo_wire.hpp"
 #include "platform/bus.hpp"
 #include "platform/health.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
 #include "tests/wire/sample_output.hpp"
 
 namespace plumb {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "platform/input_error.hpp"
-#include "platform/number_file.hpp"
-#include "platform/text.hpp"
+#include "core/input_error.hpp"
+#include "modules/datasets/number_file.hpp"
+#include "modules/datasets/text.hpp"
 
 namespace plumb {
 namespace {

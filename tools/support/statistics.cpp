@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
 
 namespace plumb {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/geometry/se3.hpp"
+#include "core/se3.hpp"
 #include "tools/synth/route.hpp"
 #include "tools/synth/terrain.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "platform/numbers.hpp"
+#include "core/numbers.hpp"
 #include "tools/synth/random.hpp"
 
 namespace plumb::synth {

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/geometry/camera_model.hpp"
+#include "core/camera_model.hpp"
 #include "tools/synth/drive.hpp"
 #include "tools/synth/ground_ray.hpp"
 #include "tools/synth/ground_shader.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/geometry/se3.hpp"
+#include "core/se3.hpp"
 #include "tools/synth/drive.hpp"
 #include "tools/synth/primitive.hpp"
 #include "tools/synth/terrain.hpp"

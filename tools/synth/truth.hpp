@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/geometry/camera_model.hpp"
+#include "core/camera_model.hpp"
 #include "tools/synth/renderer.hpp"
 
 namespace plumb::synth {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "modules/imaging/image_wire.hpp"
+#include "core/channels.hpp"
+#include "modules/camera/image_wire.hpp"
 #include "platform/bounded_decode.hpp"
-#include "platform/channels.hpp"
 #include "platform/log_file.hpp"
 #include "plumb/process_health_t.hpp"
 

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "core/channels.hpp"
+#include "core/numbers.hpp"
 #include "modules/can/can_wire.hpp"
 #include "platform/can_trace.hpp"
-#include "platform/channels.hpp"
 #include "platform/log_file.hpp"
-#include "platform/numbers.hpp"
 
 namespace plumb {
 namespace {

@@ -1,0 +1,127 @@
+#include "modules/chain/chain.hpp"
+
+#include "core/channels.hpp"
+#include "modules/camera/image_wire.hpp"
+#include "modules/chain/ground_algorithm.hpp"
+#include "modules/ground/ground_model_source.hpp"
+#include "platform/bounded_decode.hpp"
+
+namespace plumb {
+namespace {
+
+MountConfig without_file(MountConfig config) {
+  config.state_file.clear();
+  return config;
+}
+
+}  // namespace
+
+Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
+             ObjectsSink objects_sink)
+    : vo_(config.vo, seed, &vo_timer_),
+      ground_(
+          config.ground, config.detections, &ground_timer_,
+          [this](const ground_plane_t& plane, const ego_motion_t& ego) {
+            plane_ = &plane;
+            ego_ = &ego;
+            if (ground_.output() != nullptr) mount_message_ = mount_.update(*ground_.output());
+          },
+          load_ground_model(config.ground.model_file), make_ground_algorithm),
+      mount_(without_file(config.mount)),
+      objects_(config.detections, config.objects, config.ground,
+               [this](const objects_t& objects) { take_objects(objects); }),
+      can_(config.can),
+      can_sink_(can_sink),
+      sink_(std::move(sink)),
+      objects_sink_(std::move(objects_sink)) {}
+
+void Chain::take(const LogEvent& event) {
+  if (event.channel == kCameraCalibration.name) take_calibration(event.data);
+  if (event.channel == kCamera.name) take_image(event.data);
+  if (event.channel == kDetections.name) take_detections(event.data);
+}
+
+void Chain::take_calibration(std::span<const std::uint8_t> bytes) {
+  camera_calibration_t message;
+  if (!decode_bounded(bytes, &message)) {
+    return refuse(kCameraCalibration.name, "not a camera_calibration_t");
+  }
+  const char* vo_refused = vo_.take_calibration(message);
+  const char* ground_refused = ground_.take_calibration(message);
+  const char* objects_refused = objects_.take_calibration(message);
+  const char* why = vo_refused != nullptr       ? vo_refused
+                    : ground_refused != nullptr ? ground_refused
+                                                : objects_refused;
+  if (why != nullptr) refuse(kCameraCalibration.name, why);
+}
+
+void Chain::take_image(std::span<const std::uint8_t> bytes) {
+  ImageFrame frame;
+  if (const char* why = read_image(bytes, &frame)) return refuse("an image", why);
+  FrameRecord record;
+  record.seq = frame.seq;
+  record.capture_us = frame.capture_us;
+  record.vo_timer = &vo_timer_;
+  record.ground_timer = &ground_timer_;
+  plane_ = nullptr;
+  ego_ = nullptr;
+  mount_message_ = nullptr;
+  // Live, CAMERA reaches plumb-ground before the motion that plumb-vo makes of it.
+  const char* ground_refused = ground_.take_image(bytes);
+  record.refused = vo_.take_image(bytes);
+  if (vo_.motion() != nullptr) {
+    record.vo = vo_.motion();
+    vo_timer_.end();
+    if (const char* why = ground_.take_motion(*record.vo)) ground_refused = why;
+    ground_.expire();  // no image comes later in a log
+    ground_timer_.end();
+  }
+  if (record.refused == nullptr) record.refused = ground_refused;
+  if (plane_ != nullptr) {
+    record.plane = plane_;
+    record.ego = ego_;
+    // Live, too, objects sees each pair of them; what it refuses was refused nowhere else.
+    const char* objects_refused = objects_.take_plane(*plane_);
+    if (const char* why = objects_.take_ego(*ego_)) objects_refused = why;
+    if (record.refused == nullptr) record.refused = objects_refused;
+    send_can();
+  }
+  if (record.refused != nullptr) refuse("frame " + std::to_string(frame.seq), record.refused);
+  ++num_frames_;
+  sink_(record);
+}
+
+void Chain::take_detections(std::span<const std::uint8_t> bytes) {
+  detections_t message;
+  if (!decode_bounded(bytes, &message)) return refuse(kDetections.name, "not a detections_t");
+  const char* ground_refused = ground_.take_detections(message);
+  const char* objects_refused = objects_.take_detections(message);
+  objects_.expire();  // no plane comes later in a log
+  const char* why = ground_refused != nullptr ? ground_refused : objects_refused;
+  if (why != nullptr) refuse(kDetections.name, why);
+}
+
+void Chain::take_objects(const objects_t& objects) {
+  if (objects_sink_) objects_sink_(objects);
+  if (can_sink_ == nullptr) return;
+  can_.advance(objects.utime, *can_sink_);
+  can_.on_objects(objects, objects.utime);
+}
+
+void Chain::send_can() {
+  if (can_sink_ == nullptr) return;
+  can_.advance(plane_->utime, *can_sink_);
+  can_.on_ground_plane(*plane_, plane_->utime);
+  can_.on_ego_motion(*ego_, ego_->utime);
+  if (mount_message_ != nullptr) can_.on_mount(*mount_message_, mount_message_->utime);
+}
+
+void Chain::finish() {
+  if (can_sink_ != nullptr) can_.finish(*can_sink_);
+}
+
+void Chain::refuse(const std::string& what, const char* why) {
+  if (num_refused_++ == 0) first_refusal_ = what + ": " + why;
+}
+
+}  // namespace plumb

@@ -1,0 +1,78 @@
+#include "modules/ground/covariance/ground_model.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace plumb {
+namespace {
+
+constexpr double kUsualPixelVar = 1e-6;
+constexpr double kUsualTurnRatio = 0.02;
+constexpr double kUsualStepRatio = 0.5;
+constexpr double kUsualPoints = 10.0;
+constexpr double kUsualSpread = 0.02;
+constexpr double kLeastNcc = 0.1;
+constexpr double kUsualDissent = 0.003;
+
+struct BuiltIn {
+  const char* key;
+  double value;
+};
+
+// {"section.key", value}, written by the build out of config/ground_model.toml.
+constexpr BuiltIn kBuiltIn[] = {
+#include "ground_model_numbers.inc"
+};
+
+}  // namespace
+
+double turn_feature(double turn_ratio) {
+  return std::log1p(std::min(turn_ratio, 1.0) / kUsualTurnRatio);
+}
+
+double step_feature(double step_ratio) {
+  return -std::log(std::clamp(step_ratio, 0.02, 5.0) / kUsualStepRatio);
+}
+
+CueFeatures dense_features(double pixel_var, double ncc, double turn_ratio, double step_ratio) {
+  return {std::log(std::clamp(pixel_var, 1e-10, 1.0) / kUsualPixelVar),
+          -std::log(std::clamp(ncc, kLeastNcc, 1.0)), turn_feature(turn_ratio),
+          step_feature(step_ratio)};
+}
+
+CueFeatures points_features(double num_inliers, double spread, double turn_ratio,
+                            double step_ratio) {
+  return {std::log(kUsualPoints / std::clamp(num_inliers, 1.0, 200.0)),
+          std::log(std::clamp(spread, 0.002, 0.2) / kUsualSpread), turn_feature(turn_ratio),
+          step_feature(step_ratio)};
+}
+
+CueFeatures travel_features(double turn_ratio, double step_ratio) {
+  return {0.0, 0.0, turn_feature(turn_ratio), step_feature(step_ratio)};
+}
+
+CueFeatures plane_features(double dense_square, double travel_square, double turn_ratio,
+                           double step_ratio) {
+  const auto dissent = [](double square) {
+    return std::log1p(std::min(square, 1.0) / (kUsualDissent * kUsualDissent));
+  };
+  return {dissent(dense_square), dissent(travel_square), turn_feature(turn_ratio),
+          step_feature(step_ratio)};
+}
+
+double LogVariance::of(const CueFeatures& features) const {
+  double ln = ln_var;
+  for (std::size_t i = 0; i < kNumCueFeatures; ++i) ln += slopes[i] * features[i];
+  return std::clamp(std::exp(std::min(ln, 10.0)), low_std * low_std, high_std * high_std);
+}
+
+GroundModel built_in_ground_model() {
+  GroundModel model;
+  GroundModel::visit(model, [](const char* key, double& value, double, double, const char*) {
+    for (const BuiltIn& number : kBuiltIn)
+      if (std::strcmp(number.key, key) == 0) value = number.value;
+  });
+  return model;
+}
+
+}  // namespace plumb

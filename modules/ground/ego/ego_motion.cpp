@@ -1,0 +1,201 @@
+#include "modules/ground/ego/ego_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers.hpp"
+#include "modules/ground/filter/plane_angles.hpp"
+
+namespace plumb {
+namespace {
+constexpr double kMicro = 1e-6;
+
+// Standing still is measured: what is left is vibration.
+constexpr double kStandstillStepVar = 1e-3 * 1e-3;
+constexpr double kStandstillTurnVar = 1e-5 * 1e-5;
+
+// A predicted motion: the driver may brake or steer. Grows with the number of coasted frames.
+constexpr double kCoastStepRatio = 0.05;
+constexpr double kCoastTurnRad = 0.1 * kDegree;
+
+// VO's steps scatter by about this much of their length on real drives.
+constexpr double kStepScatterRatio = 0.01;
+constexpr double kSmallestSpeedStd = 0.02;
+
+bool turns(VoStatus status) {
+  return status == VoStatus::kOk || status == VoStatus::kStandstill ||
+         status == VoStatus::kRotationOnly || status == VoStatus::kCoasting;
+}
+
+bool needs_scale(VoStatus status) {
+  return status == VoStatus::kOk || status == VoStatus::kCoasting;
+}
+
+EgoStatus status_of(const VoOutput& vo, const ScaleEstimate& scale) {
+  switch (vo.status) {
+    case VoStatus::kLost:
+      return EgoStatus::kLost;
+    case VoStatus::kInitializing:
+      return EgoStatus::kInitializing;
+    case VoStatus::kStandstill:
+      return EgoStatus::kStandstill;
+    case VoStatus::kCoasting:
+      return scale.known ? EgoStatus::kCoasting : EgoStatus::kInitializing;
+    case VoStatus::kOk:
+    case VoStatus::kRotationOnly:
+      break;
+  }
+  if (!scale.known) return EgoStatus::kInitializing;
+  return scale.measured_now ? EgoStatus::kOk : EgoStatus::kScaleHeld;
+}
+
+/// Of (t, right-perturbation of R) in metres, the scale's own error left out.
+Matrix6d motion_cov(const VoOutput& vo, double metres_per_vo, int num_coasted) {
+  Matrix6d cov = vo.cov_prev_cam;
+  cov.topRows<3>() *= metres_per_vo;
+  cov.leftCols<3>() *= metres_per_vo;
+  if (vo.status == VoStatus::kStandstill) {
+    cov.setZero();
+    cov.diagonal().head<3>().setConstant(kStandstillStepVar);
+    cov.diagonal().tail<3>().setConstant(kStandstillTurnVar);
+  }
+  if (vo.status == VoStatus::kCoasting) {
+    const double step = num_coasted * kCoastStepRatio * metres_per_vo * vo.T_prev_cam.t.norm();
+    const double turn = num_coasted * kCoastTurnRad;
+    cov.diagonal().head<3>().array() += step * step;
+    cov.diagonal().tail<3>().array() += turn * turn;
+  }
+  return cov;
+}
+
+}  // namespace
+
+void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
+                       const Eigen::Vector3d& normal_cam, EgoOutput* out) {
+  *out = EgoOutput{};
+  out->status = status_of(vo, scale);
+  out->reason = vo.reason;
+  out->log_scale = scale.log_scale;
+  out->log_scale_std = scale.known ? std::sqrt(scale.var) : kNan;
+  out->accel_forward_m_s2 = out->accel_forward_std_m_s2 = kNan;
+
+  num_coasted_ = vo.status == VoStatus::kCoasting ? num_coasted_ + 1 : 0;
+  const bool moved = turns(vo.status) && vo.prev_seq >= 0;
+  const bool metric = moved && (scale.known || !needs_scale(vo.status));
+  follow_anchor(vo, moved);
+  if (metric) {
+    const double metres_per_vo = scale.known ? std::exp(scale.log_scale) : 0.0;
+    out->T_prev_cam = {vo.T_prev_cam.R, metres_per_vo * vo.T_prev_cam.t};
+    out->cov_prev_cam = motion_cov(vo, metres_per_vo, num_coasted_);
+    integrate(vo, scale, *out);
+    const Eigen::Vector3d& t = out->T_prev_cam.t;
+    out->cov_prev_cam.topLeftCorner<3, 3>() += scale.var * t * t.transpose();
+    write_rates(vo, normal_cam, out);
+  } else {
+    speed_.reset();
+  }
+  remember(vo);
+  out->T_world_cam = T_world_anchor_;
+  out->cov_world_cam = cov_world_anchor_;
+  out->distance_m = distance_m_;
+  out->reset_counter = reset_counter_;
+}
+
+/// Keeps T_anchor_cam, or finds that the way from the anchor is lost.
+void EgoMotion::follow_anchor(const VoOutput& vo, bool moved) {
+  if (!anchored_) {
+    anchored_ = true;
+    anchor_seq_ = vo.seq;
+    path_known_ = true;
+    return;
+  }
+  for (const WindowPose& pose : vo.window) {
+    if (pose.seq != anchor_seq_ || !moved) continue;
+    T_anchor_cam_ = pose.T_window_cam;
+    path_known_ = true;
+    return;
+  }
+  if (vo.status == VoStatus::kInitializing) return;  // the window will reach back when VO starts
+  if (moved && vo.prev_seq == last_seq_ && path_known_) {
+    T_anchor_cam_ = T_anchor_cam_ * vo.T_prev_cam;
+    return;
+  }
+  if (path_known_) ++reset_counter_;
+  path_known_ = false;
+  if (!moved) return;
+  // Start again from the last known pose, at the previous image.
+  T_anchor_cam_ = vo.T_prev_cam;
+  path_known_ = true;
+}
+
+void EgoMotion::integrate(const VoOutput& vo, const ScaleEstimate& scale, const EgoOutput& out) {
+  if (!path_known_) return;
+  const double metres_per_vo = scale.known ? std::exp(scale.log_scale) : 0.0;
+  const Se3 T_step{T_anchor_cam_.R, metres_per_vo * T_anchor_cam_.t};
+  const Eigen::Matrix3d& R_world_anchor = T_world_anchor_.R;
+  const Eigen::Vector3d moved = R_world_anchor * T_step.t;
+
+  Matrix6d F = Matrix6d::Identity();
+  F.topRightCorner<3, 3>() = -R_world_anchor * hat(T_step.t);
+  F.bottomRightCorner<3, 3>() = T_step.R.transpose();
+  Matrix6d G = Matrix6d::Identity();
+  G.topLeftCorner<3, 3>() = R_world_anchor;
+  const double num_frames = static_cast<double>(std::max<std::int64_t>(1, vo.seq - anchor_seq_));
+  cov_world_anchor_ =
+      F * cov_world_anchor_ * F.transpose() + num_frames * (G * out.cov_prev_cam * G.transpose());
+  // d(position) = moved * d(log_scale), on top of what earlier steps owe to the same error.
+  cov_position_scale_ *= scale.kept_ratio;
+  cov_world_anchor_.topLeftCorner<3, 3>() += scale.var * moved * moved.transpose() +
+                                             cov_position_scale_ * moved.transpose() +
+                                             moved * cov_position_scale_.transpose();
+  cov_position_scale_ += scale.var * moved;
+
+  T_world_anchor_ = T_world_anchor_ * T_step;
+  T_world_anchor_.normalize();
+  distance_m_ += T_step.t.norm();
+  anchor_seq_ = vo.seq;
+  T_anchor_cam_ = Se3{};
+}
+
+void EgoMotion::write_rates(const VoOutput& vo, const Eigen::Vector3d& normal_cam, EgoOutput* out) {
+  const double dt_s = interval_s(vo);
+  if (!(dt_s > 0.0)) return;
+  const Eigen::Matrix3d R_ground_cam = rotation_ground_cam(normal_cam);
+  const Eigen::Matrix3d R_ground_prev = R_ground_cam * out->T_prev_cam.R.transpose();
+  out->velocity_ground_m_s = R_ground_prev * out->T_prev_cam.t / dt_s;
+  out->rate_ground_rad_s = R_ground_cam * log_so3(out->T_prev_cam.R) / dt_s;
+
+  const Eigen::RowVector3d forward = R_ground_prev.row(0);
+  const Eigen::RowVector3d up = R_ground_cam.row(2);
+  const auto step_cov = out->cov_prev_cam.topLeftCorner<3, 3>();
+  const auto turn_cov = out->cov_prev_cam.bottomRightCorner<3, 3>();
+  const double step_var = forward * step_cov * forward.transpose();
+  const double turn_var = up * turn_cov * up.transpose();
+  out->speed_std_m_s = std::sqrt(step_var) / dt_s;
+  out->yaw_rate_std_rad_s = std::sqrt(turn_var) / dt_s;
+  if (vo.status == VoStatus::kCoasting) return;
+
+  const double speed = out->velocity_ground_m_s.x();
+  const double scatter = kSmallestSpeedStd + kStepScatterRatio * std::abs(speed);
+  speed_.update(speed, scatter * scatter, dt_s);
+  if (!speed_.observable()) return;
+  out->accel_forward_m_s2 = speed_.accel_m_s2();
+  out->accel_forward_std_m_s2 = speed_.accel_std_m_s2();
+}
+
+/// Time between this image and the previous one; 0 when it is not known.
+double EgoMotion::interval_s(const VoOutput& vo) const {
+  for (const Stamp& stamp : stamps_) {
+    if (stamp.seq != vo.prev_seq || stamp.seq < 0) continue;
+    return kMicro * static_cast<double>(vo.capture_us - stamp.capture_us);
+  }
+  return 0.0;
+}
+
+void EgoMotion::remember(const VoOutput& vo) {
+  stamps_[next_stamp_] = {vo.seq, vo.capture_us};
+  next_stamp_ = (next_stamp_ + 1) % stamps_.size();
+  last_seq_ = vo.seq;
+}
+
+}  // namespace plumb

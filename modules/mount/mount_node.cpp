@@ -1,0 +1,60 @@
+#include "modules/mount/mount_node.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "core/input_error.hpp"
+#include "core/numbers.hpp"
+#include "modules/mount/mount_source.hpp"
+#include "platform/config.hpp"
+#include "platform/log.hpp"
+
+namespace plumb {
+
+MountNode::MountNode(const MountConfig& config) : state_file_(config.state_file), check_(config) {
+  std::error_code unknown;
+  if (state_file_.empty() || (!std::filesystem::exists(state_file_, unknown) && !unknown)) return;
+  try {
+    check_.restore(load_mount_reference(state_file_));
+  } catch (const ConfigError& error) {
+    log_line("%s; a new reference is made", error.what());
+  }
+}
+
+const mount_t* MountNode::update(const GroundOutput& ground) {
+  const bool had_reference = check_.report().reference.has_value();
+  const MountStatus before = check_.report().status;
+  const MountReport& report = check_.update(ground);
+  if (!had_reference && report.reference) save();
+  const bool stepped_back = ground.capture_us < published_us_;
+  const bool due = stepped_back || ground.capture_us - published_us_ >= kPeriod_us;
+  if (!due && report.status == before) return nullptr;
+  published_us_ = ground.capture_us;
+  write_alarm();
+  if (report.status != before && alarm() != nullptr) log_line("%s", alarm_);
+  to_wire(report, ground.capture_us, &message_);
+  return &message_;
+}
+
+const char* MountNode::alarm() const { return alarm_[0] != '\0' ? alarm_ : nullptr; }
+
+void MountNode::save() const {
+  if (state_file_.empty()) return;
+  try {
+    save_mount_reference(state_file_, *check_.report().reference);
+  } catch (const InputError& error) {
+    log_line("%s", error.what());
+  }
+}
+
+void MountNode::write_alarm() {
+  alarm_[0] = '\0';
+  const MountReport& report = check_.report();
+  if (report.status != MountStatus::kMoved) return;
+  const Eigen::Vector3d off_rad = report.recent_rad - report.reference->mean_rad;
+  std::snprintf(alarm_, sizeof alarm_,
+                "the camera has moved on its mount: pitch %+.1f, roll %+.1f, yaw %+.1f deg",
+                degrees(off_rad.x()), degrees(off_rad.y()), degrees(off_rad.z()));
+}
+
+}  // namespace plumb

@@ -1,0 +1,34 @@
+#include "modules/mount/mount_wire.hpp"
+
+#include "core/same_value.hpp"
+
+namespace plumb {
+namespace {
+
+static_assert(same(MountStatus::kCollecting, mount_t::STATUS_COLLECTING));
+static_assert(same(MountStatus::kUnsteady, mount_t::STATUS_UNSTEADY));
+static_assert(same(MountStatus::kSteady, mount_t::STATUS_STEADY));
+static_assert(same(MountStatus::kMoved, mount_t::STATUS_MOVED));
+static_assert(same(MountReason::kNone, mount_t::REASON_NONE));
+static_assert(same(MountReason::kNoMotion, mount_t::REASON_NO_MOTION));
+static_assert(same(MountReason::kNoPlane, mount_t::REASON_NO_PLANE));
+static_assert(same(MountReason::kSlow, mount_t::REASON_SLOW));
+static_assert(same(MountReason::kTurning, mount_t::REASON_TURNING));
+
+}  // namespace
+
+void to_wire(const MountReport& report, std::int64_t capture_us, mount_t* message) {
+  message->utime = capture_us;
+  message->status = static_cast<std::int8_t>(report.status);
+  message->reason = static_cast<std::int8_t>(report.reason);
+  message->progress = report.progress;
+  message->num_stretches = report.num_stretches;
+  for (int i = 0; i < 3; ++i) {
+    message->reference_rad[i] = report.reference ? report.reference->mean_rad(i) : kNan;
+    message->reference_std_rad[i] = report.reference ? report.reference->std_rad(i) : kNan;
+    message->recent_rad[i] = report.recent_rad(i);
+    message->spread_rad[i] = report.spread_rad(i);
+  }
+}
+
+}  // namespace plumb

@@ -1,0 +1,92 @@
+/// V4L2 device, KITTI folder or video -> CAMERA, CAMERA_CALIBRATION
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core/utils/logger.hpp>
+#include <optional>
+#include <string>
+
+#include "modules/camera/device_source.hpp"
+#include "modules/camera/kitti_source.hpp"
+#include "modules/camera/live_node.hpp"
+#include "modules/camera/player_node.hpp"
+#include "modules/camera/publish_node.hpp"
+#include "modules/camera/video_source.hpp"
+#include "modules/chain/plumb_config.hpp"
+#include "platform/process.hpp"
+
+namespace {
+
+struct Options {
+  std::string device;
+  std::string kitti;
+  int kitti_camera = 0;
+  std::string video;
+  double speed = 1.0;
+};
+
+void declare(CLI::App& app, Options* options) {
+  auto* device = app.add_option("--device", options->device, "V4L2 device; default camera.device");
+  auto* kitti =
+      app.add_option("--kitti", options->kitti, "KITTI folder: image_<n>, times.txt, calib.txt");
+  auto* video = app.add_option("--video", options->video, "video file");
+  app.add_option("--kitti-camera", options->kitti_camera, "which image_<n>; default 0")
+      ->check(CLI::Range(0, 3))
+      ->needs(kitti);
+  app.add_option("--speed", options->speed,
+                 "pace of a recording; default 1, 0 is as fast as it goes")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->excludes(device);
+  device->excludes(kitti)->excludes(video);
+  kitti->excludes(video);
+}
+
+class CameraProcess {
+ public:
+  CameraProcess(plumb::Process& process, plumb::CameraConfig config, const Options& options,
+                const std::filesystem::path& folder) {
+    if (!options.kitti.empty()) {
+      recording_ = std::make_unique<plumb::KittiSource>(options.kitti, options.kitti_camera);
+    } else if (!options.video.empty()) {
+      recording_ = std::make_unique<plumb::VideoSource>(options.video);
+    }
+    if (recording_ != nullptr) {
+      recording_->complete(&config);
+      output_.emplace(process, config, folder);
+      player_.emplace(process, *recording_, *output_, options.speed);
+      return;
+    }
+    const std::string& device = options.device.empty() ? config.device : options.device;
+    if (device.empty()) {
+      throw plumb::UsageError("no source: give --device, --kitti, --video or camera.device");
+    }
+    device_.emplace(config, device);
+    device_->open_first(&config);
+    output_.emplace(process, config, folder);
+    live_.emplace(process, *device_, *output_, config);
+  }
+
+ private:
+  std::unique_ptr<plumb::RecordedSource> recording_;
+  std::optional<plumb::DeviceSource> device_;
+  std::optional<plumb::PublishNode> output_;
+  std::optional<plumb::PlayerNode> player_;
+  std::optional<plumb::LiveNode> live_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  plumb::Process process(
+      {"camera", "Camera, KITTI folder or video -> CAMERA", plumb::kHealthCamera});
+  // What goes wrong is said once, in our own words.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  plumb::PlumbConfig config;
+  Options options;
+  process.declare_options([&options](CLI::App& app) { declare(app, &options); });
+  std::optional<CameraProcess> camera;
+  return process.run(argc, argv, &config, [&] {
+    const auto folder = std::filesystem::path(process.config_path()).parent_path();
+    camera.emplace(process, config.camera, options, folder);
+  });
+}

@@ -1,0 +1,104 @@
+/// CAMERA, CAMERA_CALIBRATION, VO_MOTION, DETECTIONS -> ground plane, scale, metric motion -> GROUND_PLANE, EGO_MOTION, MOUNT
+#include <optional>
+
+#include "modules/chain/ground_algorithm.hpp"
+#include "modules/chain/plumb_config.hpp"
+#include "modules/ground/ground_model_source.hpp"
+#include "modules/ground/ground_node.hpp"
+#include "modules/mount/mount_node.hpp"
+#include "platform/clock.hpp"
+#include "platform/process.hpp"
+
+namespace {
+
+class GroundProcess {
+ public:
+  GroundProcess(plumb::Process& process, const plumb::PlumbConfig& config)
+      : process_(process),
+        node_(
+            config.ground, config.detections, &process.timer(),
+            [this](const auto& plane, const auto& ego) { publish(plane, ego); },
+            plumb::load_ground_model(config.ground.model_file), make_ground_algorithm),
+        plane_(process.bus(), plumb::kGroundPlane),
+        ego_(process.bus(), plumb::kEgoMotion),
+        mount_(process.bus(), plumb::kMount),
+        mount_node_(config.mount),
+        calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
+                     [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
+        camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
+                [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }),
+        motion_(process.bus(), plumb::kVoMotion, plumb::Input::kPeriodic,
+                [this](const plumb::vo_motion_t& m) { return on_motion(m); }),
+        detections_(process.bus(), plumb::kDetections, plumb::Input::kOccasional,
+                    [this](const plumb::detections_t& m) { return node_.take_detections(m); }),
+        image_timeout_(process.loop().timer([this] { node_.expire(); })) {
+    process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+  }
+
+ private:
+  const char* on_calibration(const plumb::camera_calibration_t& message) {
+    const bool waited = !node_.calibrated();
+    const char* refused = node_.take_calibration(message);
+    if (waited && node_.calibrated()) process_.health().clear_condition();
+    return refused;
+  }
+
+  const char* on_image(plumb::RawSubscriber::Bytes bytes) {
+    const char* refused = node_.take_image(bytes);
+    process_.counters().num_dropped = node_.num_lost();
+    return refused;
+  }
+
+  const char* on_motion(const plumb::vo_motion_t& message) {
+    const char* refused = node_.take_motion(message);
+    if (node_.waiting()) {
+      process_.loop().arm_at(image_timeout_, plumb::monotonic_us() + plumb::kCamera.stale_us);
+    }
+    process_.counters().num_dropped = node_.num_lost();
+    return refused;
+  }
+
+  void publish(const plumb::ground_plane_t& plane, const plumb::ego_motion_t& ego) {
+    plane_.publish(plane);
+    ego_.publish(ego);
+    if (node_.output() != nullptr) watch_mount(*node_.output());
+    process_.timer().end();
+  }
+
+  void watch_mount(const plumb::GroundOutput& output) {
+    const bool alarmed = mount_node_.alarm() != nullptr;
+    const plumb::mount_t* message = mount_node_.update(output);
+    if (message == nullptr) return;
+    mount_.publish(*message);
+    const char* alarm = mount_node_.alarm();
+    if (alarm != nullptr) {
+      process_.health().set_condition(plumb::HealthState::kDegraded, alarm);
+    } else if (alarmed) {
+      process_.health().clear_condition();
+    }
+  }
+
+  plumb::Process& process_;
+  plumb::GroundNode node_;
+  plumb::Publisher<plumb::ground_plane_t> plane_;
+  plumb::Publisher<plumb::ego_motion_t> ego_;
+  plumb::Publisher<plumb::mount_t> mount_;
+  plumb::MountNode mount_node_;
+  plumb::Subscriber<plumb::camera_calibration_t> calibration_;
+  plumb::RawSubscriber camera_;
+  plumb::Subscriber<plumb::vo_motion_t> motion_;
+  plumb::Subscriber<plumb::detections_t> detections_;
+  plumb::EventLoop::TimerId image_timeout_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  plumb::Process process({"ground",
+                          "Ground plane, scale and metric motion: CAMERA, VO_MOTION -> "
+                          "GROUND_PLANE, EGO_MOTION, MOUNT",
+                          plumb::kHealthGround});
+  plumb::PlumbConfig config;
+  std::optional<GroundProcess> ground;
+  return process.run(argc, argv, &config, [&] { ground.emplace(process, config); });
+}

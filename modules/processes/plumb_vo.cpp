@@ -1,0 +1,59 @@
+/// CAMERA, CAMERA_CALIBRATION -> visual odometry -> VO_MOTION
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "modules/chain/plumb_config.hpp"
+#include "modules/vo/vo_node.hpp"
+#include "platform/process.hpp"
+
+namespace {
+
+class VoProcess {
+ public:
+  VoProcess(plumb::Process& process, const plumb::VoConfig& config, std::uint64_t seed)
+      : process_(process),
+        node_(config, seed, &process.timer()),
+        motion_(process.bus(), plumb::kVoMotion),
+        calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
+                     [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
+        camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
+                [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }) {
+    process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+  }
+
+ private:
+  const char* on_calibration(const plumb::camera_calibration_t& message) {
+    const char* refused = node_.take_calibration(message);
+    if (node_.calibrated()) process_.health().clear_condition();
+    return refused;
+  }
+
+  const char* on_image(plumb::RawSubscriber::Bytes bytes) {
+    const char* refused = node_.take_image(bytes);
+    if (node_.motion() != nullptr) motion_.publish(*node_.motion());
+    if (refused == nullptr) process_.timer().end();
+    process_.counters().num_dropped = node_.num_lost();
+    return refused;
+  }
+
+  plumb::Process& process_;
+  plumb::VoNode node_;
+  plumb::Publisher<plumb::vo_motion_t> motion_;
+  plumb::Subscriber<plumb::camera_calibration_t> calibration_;
+  plumb::RawSubscriber camera_;
+};
+
+}  // namespace
+
+// NOLINTNEXTLINE(bugprone-exception-escape): add_option throws for a name given twice, and for nothing else
+int main(int argc, char** argv) {
+  plumb::Process process(
+      {"vo", "Monocular visual odometry: CAMERA -> VO_MOTION", plumb::kHealthVo});
+  plumb::PlumbConfig config;
+  std::uint64_t seed = 1;
+  process.declare_options([&seed](CLI::App& app) {
+    app.add_option("--seed", seed, "seed of the random sampling; default 1");
+  });
+  std::optional<VoProcess> vo;
+  return process.run(argc, argv, &config, [&] { vo.emplace(process, config.vo, seed); });
+}

@@ -1,0 +1,97 @@
+#include "modules/mount/mount_node.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/numbers.hpp"
+#include "tests/ground/straight_drive.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace plumb {
+namespace {
+
+class MountNodeTest : public testing::Test {
+ protected:
+  MountNodeTest() { config_.state_file = (folder_.path() / "mount.toml").string(); }
+
+  /// Ten images a second; returns how many messages came. Keeps the last one.
+  int drive(MountNode* node, double way_m, double yaw_deg) {
+    int num_messages = 0;
+    GroundOutput output = test::straight_on({0.0, 0.0, yaw_deg * kDegree});
+    for (double m = 0.0; m < way_m; m += 0.1 * test::kSpeed_m_s) {
+      output.capture_us = now_us_ += 100'000;
+      const mount_t* message = node->update(output);
+      if (message == nullptr) continue;
+      ++num_messages;
+      last_ = *message;
+    }
+    return num_messages;
+  }
+
+  test::TempFolder folder_;
+  MountConfig config_;
+  std::int64_t now_us_ = 1'000'000'000;
+  mount_t last_{};
+};
+
+TEST_F(MountNodeTest, SpeaksOnceASecondAndAtOnceWhenTheStatusChanges) {
+  MountNode node(config_);
+  EXPECT_EQ(drive(&node, 400.0, 0.5), 40);
+  EXPECT_EQ(last_.status, mount_t::STATUS_COLLECTING);
+  drive(&node, 115.0, 0.5);
+  EXPECT_EQ(last_.status, mount_t::STATUS_STEADY);
+  EXPECT_EQ(node.alarm(), nullptr);
+  drive(&node, 90.0, 3.5);
+  EXPECT_EQ(last_.status, mount_t::STATUS_MOVED);
+  EXPECT_STREQ(node.alarm(),
+               "the camera has moved on its mount: pitch +0.0, roll +0.0, yaw +1.3 deg")
+      << "the newest four stretches: half of them are old when a degree is passed";
+  drive(&node, 160.0, 3.5);
+  EXPECT_STREQ(node.alarm(),
+               "the camera has moved on its mount: pitch +0.0, roll +0.0, yaw +3.0 deg")
+      << "follows what is measured";
+  drive(&node, 250.0, 0.5);
+  EXPECT_EQ(node.alarm(), nullptr);
+}
+
+TEST_F(MountNodeTest, AClockThatStepsBackDoesNotSilenceIt) {
+  MountNode node(config_);
+  drive(&node, 50.0, 0.5);
+  now_us_ -= 900'000'000;
+  EXPECT_EQ(drive(&node, 50.0, 0.5), 5);
+}
+
+TEST_F(MountNodeTest, TheReferenceSurvivesARestart) {
+  {
+    MountNode node(config_);
+    drive(&node, 520.0, 0.5);
+  }
+  MountNode again(config_);
+  drive(&again, 10.0, 0.5);
+  EXPECT_EQ(last_.status, mount_t::STATUS_STEADY);
+  EXPECT_NEAR(last_.reference_rad[2], 0.5 * kDegree, 1e-9);
+}
+
+TEST_F(MountNodeTest, ADamagedFileIsReplacedByTheNextReference) {
+  std::ofstream(config_.state_file) << "garbage";
+  MountNode node(config_);
+  drive(&node, 10.0, 0.5);
+  EXPECT_EQ(last_.status, mount_t::STATUS_COLLECTING);
+  drive(&node, 520.0, 0.5);
+  MountNode again(config_);
+  drive(&again, 10.0, 0.5);
+  EXPECT_EQ(last_.status, mount_t::STATUS_STEADY);
+}
+
+TEST_F(MountNodeTest, WithoutAFileItWritesNone) {
+  config_.state_file.clear();
+  MountNode node(config_);
+  drive(&node, 520.0, 0.5);
+  EXPECT_EQ(last_.status, mount_t::STATUS_STEADY);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+}  // namespace
+}  // namespace plumb

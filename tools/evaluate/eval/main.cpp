@@ -1,0 +1,148 @@
+/// plumb-eval: how far an estimated trajectory, estimated ground planes, or placed objects, are from the truth.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <string>
+
+#include "core/input_error.hpp"
+#include "modules/datasets/number_file.hpp"
+#include "tools/evaluate/eval/plots.hpp"
+#include "tools/evaluate/eval/report_json.hpp"
+#include "tools/evaluate/eval/report_text.hpp"
+#include "tools/evaluate/objects_eval/objects_command.hpp"
+#include "tools/evaluate/objects_eval/placement_command.hpp"
+#include "tools/support/tool_main.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr const char* kFooter = R"(Examples
+  plumb-eval poses/05.txt out/05.txt                     KITTI metric, 100..800 m
+  plumb-eval poses/05.txt out/05.txt --lengths 10,20,50  for a short drive
+  plumb-eval --gt-dir poses --est-dir out --json all.json --plots pictures
+  plumb-eval plane gt_ground_plane_velodyne.txt out/04.csv
+  plumb-eval objects kitti/tracking --boxes det2d/CIWT   from boxes alone
+  plumb-eval placed drive0009 frames.csv objects.csv     whole chain
+
+The metric compares relative poses only: neither file need begin with the identity.)";
+
+struct Arguments {
+  std::string gt, est, gt_dir, est_dir;
+  std::string plane_gt, plane_est;
+  std::string lengths = "new";
+  std::string json, plots;
+  std::string plot_format = "png";
+  EvalOptions options;
+};
+
+std::vector<double> parse_lengths(const std::string& text) {
+  if (text == "new") return new_kitti_lengths_m();
+  if (text == "old") return old_kitti_lengths_m();
+  std::vector<double> lengths_m;
+  for (const std::string_view cell : split_cells(text)) {
+    const std::optional<double> value = parse_number(cell);
+    if (!value || *value <= 0.0) {
+      throw InputError("--lengths: '" + std::string(cell) +
+                       "' is neither new, old nor a length above zero");
+    }
+    lengths_m.push_back(*value);
+  }
+  return lengths_m;
+}
+
+template <typename Report>
+void give_out(const Arguments& arguments, const Report& report) {
+  std::cout << to_text(report);
+  if (!arguments.json.empty()) write_json(report, arguments.json);
+  if (arguments.plots.empty()) return;
+  for (const auto& file : draw_plots(report, arguments.plots, arguments.plot_format)) {
+    std::cout << "wrote " << file.string() << "\n";
+  }
+}
+
+int evaluate_trajectories(Arguments arguments) {
+  const bool pair = !arguments.gt.empty() && !arguments.est.empty();
+  const bool folders = !arguments.gt_dir.empty() && !arguments.est_dir.empty();
+  if (pair == folders) {
+    throw InputError("give either GT and EST, or --gt-dir and --est-dir; see --help");
+  }
+  arguments.options.metric.lengths_m = parse_lengths(arguments.lengths);
+  std::vector<SequenceReport> sequences;
+  if (folders) {
+    sequences = evaluate_folders(arguments.gt_dir, arguments.est_dir, arguments.options);
+  } else {
+    const std::string name = std::filesystem::path(arguments.est).stem().string();
+    sequences = {evaluate_sequence(name, arguments.gt, arguments.est, arguments.options)};
+  }
+  give_out(arguments, pool(std::move(sequences), arguments.options));
+  return 0;
+}
+
+int evaluate_planes(const Arguments& arguments) {
+  const PlaneReport report =
+      compare_planes(read_planes(arguments.plane_gt), read_estimate_csv(arguments.plane_est));
+  if (report.num_compared == 0) {
+    throw InputError("no frame of " + arguments.plane_est +
+                     " has both an estimate and a plane in " + arguments.plane_gt);
+  }
+  give_out(arguments, report);
+  return 0;
+}
+
+void add_outputs(CLI::App* app, Arguments* arguments) {
+  app->add_option("--json", arguments->json, "write the figures to FILE")->type_name("FILE");
+  app->add_option("--plots", arguments->plots, "draw pictures into DIR")->type_name("DIR");
+  app->add_option("--plot-format", arguments->plot_format, "png or svg")
+      ->check(CLI::IsMember({"png", "svg"}))
+      ->capture_default_str();
+}
+
+CLI::App* add_options(CLI::App* app, Arguments* arguments) {
+  app->footer(kFooter);
+  app->require_subcommand(0, 1);
+  app->add_option("GT", arguments->gt, "true poses, 12 numbers per row");
+  app->add_option("EST", arguments->est, "estimated poses");
+  app->add_option("--gt-dir", arguments->gt_dir, "folder of true poses, NAME.txt each");
+  app->add_option("--est-dir", arguments->est_dir, "folder of estimates under the same names");
+  app->add_option("--lengths", arguments->lengths,
+                  "segment lengths [m]: new (100,200..800), old (5,10,50,100,150..400), or a list")
+      ->capture_default_str();
+  app->add_option("--step", arguments->options.metric.step_frames,
+                  "frames from one segment's start to the next one's")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app->add_option("--scale-window", arguments->options.scale_window_m,
+                  "true path per window of the scale ratio [m]")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  app->add_flag("--allow-partial", arguments->options.allow_partial,
+                "compare the rows both files have when their number differs");
+  add_outputs(app, arguments);
+  CLI::App* plane = app->add_subcommand("plane", "compare ground planes instead");
+  plane->add_option("GT_PLANE", arguments->plane_gt, "rows: frame nx ny nz height_m ...")
+      ->required();
+  plane->add_option("EST_CSV", arguments->plane_est, "what plumb-replay wrote with --csv")
+      ->required();
+  add_outputs(plane, arguments);
+  return plane;
+}
+
+}  // namespace
+}  // namespace plumb
+
+int main(int argc, char** argv) {
+  plumb::Arguments arguments;
+  CLI::App app("Error of estimated trajectories, ground planes and objects against the truth",
+               "plumb-eval");
+  const CLI::App* plane = plumb::add_options(&app, &arguments);
+  plumb::ObjectsCommand objects_command;
+  const CLI::App* objects = plumb::add_objects_command(&app, &objects_command);
+  plumb::PlacementCommand placement_command;
+  const CLI::App* placed = plumb::add_placement_command(&app, &placement_command);
+  return plumb::tool_main(&app, argc, argv, [&] {
+    if (placed->parsed()) return plumb::run_placement_command(placement_command);
+    if (objects->parsed()) return plumb::run_objects_command(objects_command);
+    return plane->parsed() ? plumb::evaluate_planes(arguments)
+                           : plumb::evaluate_trajectories(arguments);
+  });
+}

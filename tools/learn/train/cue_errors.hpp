@@ -1,0 +1,40 @@
+/// Errors of the cues and of what was reported, against one frame's truth.
+///
+/// Frames  cam of the newest image.  Units  [vo] for the cues, metres for what is reported.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/se3.hpp"
+#include "modules/datasets/kitti/plane_file.hpp"
+#include "modules/ground/covariance/ground_sight.hpp"
+#include "plumb/ego_motion_t.hpp"
+#include "plumb/ground_plane_t.hpp"
+#include "tools/learn/train/sample.hpp"
+
+namespace plumb {
+
+/// What the cues are held against.
+struct CueReference {
+  double ln_height = 0.0;  ///< true, [vo]
+  const TruePlane* plane = nullptr;
+  Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< the true one, else the filter's
+  Eigen::Matrix2d normal_cov = Eigen::Matrix2d::Zero();   ///< of (n1, n3); zero for the true one
+};
+
+void write_dense(const GroundSight& sight, const CueReference& reference, Sample* sample);
+void write_points(const GroundSight& sight, const CueReference& reference, Sample* sample);
+void write_travel(const GroundSight& sight, const CueReference& reference, Sample* sample);
+/// Without true plane nothing.
+void write_objects(const CueObservation& objects, const TruePlane* truth, Sample* sample);
+
+/// The published method's cues; `truth` may be null.
+void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,
+                 const TruePlane* truth, Sample* sample);
+
+/// Height, pitch and roll. @pre plane has a true plane beside it
+void write_plane_output(const ground_plane_t& plane, const TruePlane& truth, Sample* sample);
+/// Length, translation and rotation of the frame's motion.
+void write_motion_output(const ego_motion_t& ego, const Se3& T_prev_cam_true, Sample* sample);
+
+}  // namespace plumb

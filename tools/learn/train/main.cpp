@@ -1,0 +1,47 @@
+/// plumb-train: drives with truth -> samples -> the model that tells how far each cue can be trusted.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "tools/learn/train/fit_command.hpp"
+#include "tools/learn/train/sample_command.hpp"
+#include "tools/support/tool_main.hpp"
+
+namespace {
+
+constexpr const char* kFooter = R"(Examples
+  plumb-train sample 05.lcm --out 05.csv          one drive; any number at once, on any machines
+  plumb-train fit *.csv --out model.toml --plots pictures
+  plumb-replay 05.lcm --config my.toml --csv 05_frames.csv     my.toml: [ground] model_file = "model.toml"
+  plumb-train score *.csv
+
+Truth comes with the log (plumb-kitti2lcm writes poses and planes into it). tools/learn/train_model does all of it.)";
+
+std::string joined(int argc, char** argv) {
+  std::string text = "plumb-train";
+  for (int i = 1; i < argc; ++i) {
+    const std::string part = argv[i];
+    text += " " + part.substr(part.rfind('/') + 1);  // no paths: they say nothing elsewhere
+  }
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Learns from drives with truth how far each cue can be trusted", "plumb-train");
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  plumb::SampleCommand sample_command;
+  plumb::FitCommand fit_command;
+  plumb::ScoreCommand score_command;
+  const CLI::App* sample = plumb::add_sample_command(&app, &sample_command);
+  const CLI::App* fit = plumb::add_fit_command(&app, &fit_command);
+  plumb::add_score_command(&app, &score_command);
+  fit_command.command_line = joined(argc, argv);
+  return plumb::tool_main(&app, argc, argv, [&] {
+    if (sample->parsed()) return plumb::run_sample_command(sample_command);
+    if (fit->parsed()) return plumb::run_fit_command(fit_command);
+    return plumb::run_score_command(score_command);
+  });
+}

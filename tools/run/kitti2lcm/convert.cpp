@@ -1,0 +1,172 @@
+#include "tools/run/kitti2lcm/convert.hpp"
+
+#include <Eigen/Geometry>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/channels.hpp"
+#include "core/input_error.hpp"
+#include "modules/camera/image_wire.hpp"
+#include "modules/datasets/kitti/png_image.hpp"
+#include "modules/datasets/text.hpp"
+#include "modules/detections/detections_wire.hpp"
+#include "platform/log_file.hpp"
+#include "plumb/ground_truth_t.hpp"
+#include "tools/datasets/kitti_tracking/kitti_tracking.hpp"
+#include "tools/support/progress.hpp"
+#include "tools/support/stop_flag.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr std::int64_t kCalibrationPeriod_us = 1'000'000;
+constexpr int kJpegQuality = 95;
+
+class Converter {
+ public:
+  Converter(const Sequence& sequence, const ConvertOptions& options, const cv::Mat& first_image,
+            std::vector<TrackingRow> boxes)
+      : options_(options),
+        camera_(sequence.camera),
+        boxes_(std::move(boxes)),
+        log_(options.out.string()) {
+    camera_.width_px = first_image.cols;
+    camera_.height_px = first_image.rows;
+  }
+
+  void add(const SequenceFrame& frame, const cv::Mat& image) {
+    if (image.cols != camera_.width_px || image.rows != camera_.height_px) {
+      throw InputError(format("%s is %d x %d pixels, the images before it are %d x %d",
+                              frame.image.string().c_str(), image.cols, image.rows,
+                              camera_.width_px, camera_.height_px));
+    }
+    if (result_.num_frames == 0 || frame.capture_us - calibration_us_ >= kCalibrationPeriod_us) {
+      calibration_us_ = frame.capture_us;
+      write(frame.capture_us, kCameraCalibration, to_wire(camera_, frame.capture_us));
+    }
+    if (frame.T_world_cam || frame.plane) write_truth(frame);
+    write_image(frame, image);
+    if (!options_.detections.empty()) write_detections(frame);
+    if (result_.num_frames++ == 0) first_us_ = frame.capture_us;
+    result_.duration_s = 1e-6 * static_cast<double>(frame.capture_us - first_us_);
+  }
+
+  ConvertResult finish() {
+    log_.close();
+    result_.log_bytes = static_cast<std::int64_t>(std::filesystem::file_size(options_.out));
+    return result_;
+  }
+  [[nodiscard]] std::int64_t num_frames() const { return result_.num_frames; }
+
+ private:
+  template <typename Message>
+  void write(std::int64_t capture_us, const Channel& channel, const Message& message) {
+    const int size = message.getEncodedSize();
+    buffer_.resize(static_cast<std::size_t>(size));
+    message.encode(buffer_.data(), 0, size);
+    log_.write(capture_us, channel.name, buffer_);
+  }
+
+  void write_image(const SequenceFrame& frame, const cv::Mat& image) {
+    if (options_.jpeg) {
+      cv::imencode(".jpg", image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+      to_wire_jpeg(frame.capture_us, frame.seq, image.cols, image.rows, jpeg_, &image_);
+    } else {
+      const ImageView view{image.data, image.cols, image.rows,
+                           static_cast<std::ptrdiff_t>(image.step[0])};
+      to_wire(frame.capture_us, frame.seq, view, &image_);
+    }
+    write(frame.capture_us, kCamera, image_);
+  }
+
+  /// An image without boxes gets an empty message: the detector looked.
+  void write_detections(const SequenceFrame& frame) {
+    DetectionFrame detections = detections_of_frame(boxes_, static_cast<int>(frame.seq));
+    detections.capture_us = frame.capture_us;
+    result_.num_detections += static_cast<std::int64_t>(detections.detections.size());
+    to_wire(detections, &detections_);
+    write(frame.capture_us, kDetections, detections_);
+  }
+
+  void write_truth(const SequenceFrame& frame) {
+    ground_truth_t truth{};
+    truth.utime = frame.capture_us;
+    truth.seq = frame.seq;
+    truth.q_world_cam[0] = 1.0;
+    if (frame.T_world_cam) {
+      ++result_.num_poses;
+      truth.has_pose = 1;
+      const Eigen::Matrix3d R = frame.T_world_cam->topLeftCorner<3, 3>();
+      const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
+      const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
+      std::copy(std::begin(wxyz), std::end(wxyz), truth.q_world_cam);
+      for (int i = 0; i < 3; ++i) truth.t_world_cam_m[i] = (*frame.T_world_cam)(i, 3);
+    }
+    if (frame.plane) {
+      ++result_.num_planes;
+      truth.has_plane = 1;
+      for (int i = 0; i < 3; ++i) truth.normal_cam[i] = frame.plane->normal_cam[i];
+      truth.height_m = frame.plane->height_m;
+    }
+    write(frame.capture_us, kGroundTruth, truth);
+  }
+
+  const ConvertOptions& options_;
+  CameraModel camera_;
+  std::vector<TrackingRow> boxes_;
+  LogWriter log_;
+  ConvertResult result_;
+  std::int64_t first_us_ = 0;
+  std::int64_t calibration_us_ = 0;
+  image_t image_;
+  detections_t detections_{};
+  std::vector<std::uint8_t> jpeg_;
+  std::vector<std::uint8_t> buffer_;
+};
+
+cv::Mat load_first(const Sequence& sequence) {
+  const SequenceFrame& frame = sequence.frames.front();
+  cv::Mat image = load_grey_png(frame.image, sequence.colour_allowed);
+  CameraModel camera = sequence.camera;
+  if (camera.width_px != 0 && (camera.width_px != image.cols || camera.height_px != image.rows)) {
+    throw InputError(format(
+        "%s is %d x %d pixels, the calibration says %d x %d after rectification",
+        frame.image.string().c_str(), image.cols, image.rows, camera.width_px, camera.height_px));
+  }
+  camera.width_px = image.cols;
+  camera.height_px = image.rows;
+  CameraModel checked;
+  if (const char* why = from_wire(to_wire(camera, frame.capture_us), &checked))
+    throw InputError(why);
+  return image;
+}
+
+}  // namespace
+
+ConvertResult convert(const Sequence& sequence, const ConvertOptions& options) {
+  cv::Mat image = load_first(sequence);
+  std::vector<TrackingRow> boxes;
+  if (!options.detections.empty()) boxes = read_tracking(options.detections);
+  Converter converter(sequence, options, image, std::move(boxes));
+  const auto total = static_cast<std::int64_t>(sequence.frames.size());
+  Progress progress("converting", "frames", total);
+  try {
+    for (const SequenceFrame& frame : sequence.frames) {
+      if (stop_requested()) break;
+      if (converter.num_frames() > 0) image = load_grey_png(frame.image, sequence.colour_allowed);
+      converter.add(frame, image);
+      progress.update(converter.num_frames(), converter.num_frames());
+    }
+  } catch (const InputError& error) {
+    progress.finish(false);
+    const ConvertResult result = converter.finish();
+    throw InputError(format("%s; %s holds the %lld frames before it", error.what(),
+                            options.out.string().c_str(),
+                            static_cast<long long>(result.num_frames)));
+  }
+  ConvertResult result = converter.finish();
+  result.stopped = result.num_frames < total;
+  progress.finish(!result.stopped);
+  return result;
+}
+
+}  // namespace plumb

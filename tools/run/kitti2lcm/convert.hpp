@@ -1,0 +1,33 @@
+/// A KITTI sequence into an LCM log: CAMERA_CALIBRATION first and once a second, CAMERA per frame,
+/// GROUND_TRUTH beside it where there is truth, DETECTIONS behind it where there are boxes. Events carry the true
+/// capture times.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "modules/datasets/kitti/sequence.hpp"
+
+namespace plumb {
+
+struct ConvertOptions {
+  std::filesystem::path out;
+  bool jpeg = false;                      ///< quality 95; else the pixels as they are
+  std::filesystem::path detections = {};  ///< KITTI tracking file; empty: none
+};
+
+struct ConvertResult {
+  std::int64_t num_frames = 0;
+  std::int64_t num_poses = 0;
+  std::int64_t num_planes = 0;
+  std::int64_t num_detections = 0;
+  std::int64_t log_bytes = 0;
+  double duration_s = 0.0;
+  bool stopped = false;  ///< by a signal; the log holds the frames up to then
+};
+
+/// Shows its progress on stderr. Throws InputError for a bad image and LogError for a log that
+/// cannot be written; what was written before is a sound log either way.
+ConvertResult convert(const Sequence& sequence, const ConvertOptions& options);
+
+}  // namespace plumb

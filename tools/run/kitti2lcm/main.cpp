@@ -1,0 +1,93 @@
+/// plumb-kitti2lcm: a KITTI sequence into an LCM log that plays with lcm-logplayer and
+/// plumb-replay.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <string>
+
+#include "modules/datasets/text.hpp"
+#include "tools/run/kitti2lcm/convert.hpp"
+#include "tools/support/stop_flag.hpp"
+#include "tools/support/tool_main.hpp"
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(SEQ_DIR is an odometry sequence (image_0/000000.png.., calib.txt, times.txt, perhaps poses.txt; numbers may
+start anywhere) or a raw drive, synced and rectified (image_00/data, image_00/timestamps.txt, oxts, and
+calib_cam_to_cam.txt in it or one folder up).
+
+Examples
+  plumb-kitti2lcm dataset/sequences/05 --poses dataset/poses/05.txt --out 05.lcm
+  plumb-kitti2lcm 2011_09_26/2011_09_26_drive_0009_sync --out 0009.lcm --camera-height 1.65
+  plumb-kitti2lcm dataset/sequences/00 --camera 2 --start 100 --end 299 --compress jpeg --out part.lcm)";
+
+void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::ConvertOptions* convert,
+                 std::string* compress) {
+  app->footer(kFooter);
+  app->add_option("SEQ_DIR", sequence->folder, "folder of the sequence")->required();
+  app->add_option("--out", convert->out, "log to write")->required();
+  app->add_option("--camera", sequence->camera,
+                  "0 left grey, 1 right grey, 2 left colour, 3 right colour")
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  app->add_option("--compress", *compress,
+                  "none: pixels as they are; jpeg: quality 95, about a quarter of the size")
+      ->check(CLI::IsMember({"none", "jpeg"}))
+      ->capture_default_str();
+  app->add_option("--poses", sequence->poses,
+                  "true poses [SEQ_DIR/poses.txt, or a raw drive's oxts]");
+  app->add_option("--planes", sequence->planes,
+                  "true ground planes [SEQ_DIR/gt_ground_plane*.txt]");
+  app->add_option("--detections", convert->detections,
+                  "boxes: KITTI tracking labels, or a tracker's output [SEQ_DIR/label_02.txt]");
+  app->add_option(
+         "--residual-k1", sequence->residual_k1,
+         "radial term of r^2 left in the rectified images [calib.txt's residual_k1, else 0.0256]")
+      ->check(CLI::Range(-0.2, 0.2));
+  app->add_option("--residual-k2", sequence->residual_k2,
+                  "the same, of r^4 [calib.txt's residual_k2, else -0.0076; 0 beside a stated k1]")
+      ->check(CLI::Range(-0.2, 0.2));
+  app->add_option(
+         "--camera-height", sequence->camera_height_m,
+         "optical centre above the road [calib.txt's camera_height_m, else the configuration's]")
+      ->check(CLI::Range(0.3, 4.0));
+  app->add_option("--readout", sequence->readout_s,
+                  "rolling shutter, first row to last, s [calib.txt's readout_s, else 0]")
+      ->check(CLI::Range(0.0, 0.1));
+  app->add_option("--start", sequence->start, "first frame number")->check(CLI::NonNegativeNumber);
+  app->add_option("--end", sequence->end, "last frame number")->check(CLI::NonNegativeNumber);
+}
+
+int run(const plumb::SequenceOptions& options, plumb::ConvertOptions convert_options) {
+  plumb::catch_stop_signals();
+  const plumb::Sequence sequence = plumb::read_sequence(options);
+  const std::filesystem::path labels = options.folder / "label_02.txt";
+  if (convert_options.detections.empty() && std::filesystem::exists(labels)) {
+    convert_options.detections = labels;
+    std::cerr << "plumb-kitti2lcm: boxes from " << labels.string() << "\n";
+  }
+  for (const std::string& note : sequence.notes) std::cerr << "plumb-kitti2lcm: " << note << "\n";
+  const plumb::ConvertResult result = plumb::convert(sequence, convert_options);
+  std::cout << plumb::format(
+      "%s: %lld frames, %.1f s, %.1f MB; %lld with a pose, %lld with a plane; %lld boxes%s\n",
+      convert_options.out.c_str(), static_cast<long long>(result.num_frames), result.duration_s,
+      1e-6 * static_cast<double>(result.log_bytes), static_cast<long long>(result.num_poses),
+      static_cast<long long>(result.num_planes), static_cast<long long>(result.num_detections),
+      result.stopped ? "; stopped early" : "");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  plumb::SequenceOptions sequence;
+  plumb::ConvertOptions convert;
+  std::string compress = "none";
+  CLI::App app("A KITTI sequence into an LCM log", "plumb-kitti2lcm");
+  add_options(&app, &sequence, &convert, &compress);
+  return plumb::tool_main(&app, argc, argv, [&] {
+    convert.jpeg = compress == "jpeg";
+    return run(sequence, convert);
+  });
+}

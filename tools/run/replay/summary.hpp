@@ -1,0 +1,31 @@
+/// What plumb-replay prints at the end: how often each status came, and where the time went.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "modules/chain/chain.hpp"
+#include "platform/stage_timer.hpp"
+
+namespace plumb {
+
+class StatusCount {
+ public:
+  void add(const FrameRecord& record);
+  /// "vo     370 ok, 6 initializing, 1 standstill", a line each for vo, plane and ego.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::map<int, int> vo_;
+  std::map<int, int> plane_;
+  std::map<int, int> ego_;
+  int num_refused_ = 0;
+};
+
+/// What the mount check found, in one line.
+[[nodiscard]] std::string mount_text(const MountReport& report);
+
+/// Table of the stages of `program`: frames, median, 99th percentile and maximum in milliseconds.
+[[nodiscard]] std::string stage_table(const std::string& program, const StageTimer& timer);
+
+}  // namespace plumb
