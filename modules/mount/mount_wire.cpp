@@ -1,5 +1,6 @@
 #include "modules/mount/mount_wire.hpp"
 
+#include "core/numbers.hpp"
 #include "core/same_value.hpp"
 
 namespace plumb {

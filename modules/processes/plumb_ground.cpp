@@ -18,7 +18,7 @@ class GroundProcess {
         node_(
             config.ground, config.detections, &process.timer(),
             [this](const auto& plane, const auto& ego) { publish(plane, ego); },
-            plumb::load_ground_model(config.ground.model_file), make_ground_algorithm),
+            plumb::load_ground_model(config.ground.model_file), plumb::make_ground_algorithm),
         plane_(process.bus(), plumb::kGroundPlane),
         ego_(process.bus(), plumb::kEgoMotion),
         mount_(process.bus(), plumb::kMount),

@@ -16,6 +16,7 @@
 
 #include "modules/ground/cues/detection_cue.hpp"
 #include "modules/ground/types/ground_types.hpp"
+#include "modules/ground/types/linear_variance.hpp"
 
 namespace plumb {
 
