@@ -1,0 +1,36 @@
+/// Runs a faulty drive through the chain and holds what it marks as valid against the truth.
+///
+/// A result is wrong when its speed is off by more than three stated standard deviations and by more than 0.3 m/s.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "modules/chain/plumb_config.hpp"
+#include "tools/evaluate/faults/fault.hpp"
+
+namespace plumb {
+
+struct FaultResult {
+  std::int64_t num_images = 0;
+  std::int64_t num_results = 0;  ///< EGO_MOTION messages
+  std::int64_t num_valid = 0;    ///< of them, status ok, scale held, standstill or coasting
+  std::int64_t num_wrong = 0;    ///< of the valid ones
+  double worst_error_m_s = 0.0;  ///< largest error of the speed while valid
+  /// From the first faulty image until no wrong result follows within the fault; 0 when none was wrong.
+  double detect_s = 0.0;
+  /// From the first sound image after the fault until results are valid and right; negative: never.
+  double recover_s = 0.0;
+  std::string last_reason;  ///< what the chain said of the newest invalid result
+
+  [[nodiscard]] double wrong_ratio() const;
+};
+
+[[nodiscard]] FaultResult run_fault(const FaultRun& run, const PlumbConfig& config);
+
+/// The table of docs/faults.md: one row of Markdown, and its head.
+[[nodiscard]] std::string fault_table_head();
+[[nodiscard]] std::string fault_table_row(const Fault& fault, const std::string& drive,
+                                          const FaultResult& result);
+
+}  // namespace plumb

@@ -1,0 +1,69 @@
+/// plumb-faults: puts faults of camera, clock and source into recorded drives and tells what the chain makes of them.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "core/input_error.hpp"
+#include "platform/config.hpp"
+#include "tools/evaluate/faults/fault_judge.hpp"
+#include "tools/support/tool_main.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Each LOG needs CAMERA, CAMERA_CALIBRATION and the true poses that plumb-kitti2lcm writes. The table is Markdown,
+as docs/faults.md shows it. Exit code 1: some fault left more wrong results than --most-wrong allows.
+
+Examples
+  plumb-faults 04.lcm 07.lcm
+  plumb-faults 04.lcm --fault frozen --fault two_publishers)";
+
+struct Arguments {
+  std::vector<std::string> logs, faults;
+  std::string config;
+  double most_wrong_ratio = 0.005;
+};
+
+int run(const Arguments& arguments) {
+  PlumbConfig config;
+  load_config(arguments.config, &config);
+  const auto wanted = [&arguments](const Fault& fault) {
+    return arguments.faults.empty() || std::find(arguments.faults.begin(), arguments.faults.end(),
+                                                 fault.name) != arguments.faults.end();
+  };
+  bool sound = true;
+  std::cout << fault_table_head();
+  for (const std::string& log : arguments.logs) {
+    const FaultDrive drive = read_fault_drive(log);
+    for (const Fault& fault : all_faults()) {
+      if (!wanted(fault)) continue;
+      const FaultResult result = run_fault(fault.make(drive), config);
+      std::cout << fault_table_row(fault, drive.name, result) << std::flush;
+      sound = sound && result.wrong_ratio() <= arguments.most_wrong_ratio;
+    }
+  }
+  return sound ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace plumb
+
+int main(int argc, char** argv) {
+  plumb::Arguments arguments;
+  std::vector<std::string> names;
+  for (const plumb::Fault& fault : plumb::all_faults()) names.push_back(fault.name);
+  CLI::App app("Faults put into recorded drives, and what the chain makes of them", "plumb-faults");
+  app.footer(plumb::kFooter);
+  app.add_option("LOG", arguments.logs, "logs with true poses")->required();
+  app.add_option("--fault", arguments.faults, "only these rows of the table")
+      ->check(CLI::IsMember(names));
+  app.add_option("--config", arguments.config, "TOML file; every key is optional");
+  app.add_option("--most-wrong", arguments.most_wrong_ratio,
+                 "share of the valid results that may be wrong")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
+}
