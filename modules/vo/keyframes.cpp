@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/percentile.hpp"
 #include "modules/vo/inverse_depth.hpp"
 #include "modules/vo/projection.hpp"
 
@@ -43,11 +44,7 @@ Keyframes::View Keyframes::look(const TrackTable& tracks, const Window& window,
   }
   constexpr double kNothingShared = 99.0;
   view.median_parallax_px = kNothingShared;
-  if (!scratch_.empty()) {
-    const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-    std::nth_element(scratch_.begin(), middle, scratch_.end());
-    view.median_parallax_px = *middle;
-  }
+  if (!scratch_.empty()) view.median_parallax_px = upper_median(scratch_);
   return view;
 }
 

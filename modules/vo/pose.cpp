@@ -1,6 +1,7 @@
 #include "modules/vo/pose.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
@@ -65,6 +66,9 @@ bool solve(const NormalEquations& normal, bool hold_translation, Vector6d* step)
   return step->allFinite();
 }
 
+// Measured errors of the motion over what the information matrix promises, as a ratio of variances.
+constexpr double kCovarianceInflation = 4.0;
+
 }  // namespace
 
 PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& window,
@@ -97,6 +101,17 @@ PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& windo
     if (step.norm() < kConvergedStep) break;
   }
   return fit;
+}
+
+Matrix6d motion_covariance(const PoseFit& pose, const Se3& T_prev_world) {
+  // T_prev_cam = T_prev_world T_world_cam: for T_cam_world <- (exp(w), d), t moves by -R_prev_cam d and R by exp(-w)
+  // on the right.
+  Matrix6d information = pose.information;
+  information.diagonal().array() += 1e-9;
+  const Matrix6d cov = kCovarianceInflation * information.inverse();
+  Matrix6d J = -Matrix6d::Identity();
+  J.topLeftCorner<3, 3>() = -(T_prev_world.R * pose.T_cam_world.R.transpose());
+  return J * cov * J.transpose();
 }
 
 }  // namespace plumb::vo

@@ -37,4 +37,9 @@ struct PoseOptions {
 [[nodiscard]] PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& window,
                                const Eigen::Vector2d& focal_px, const PoseOptions& options);
 
+/// Covariance of T_prev_cam, of (t, right-perturbation of R), for the motion from T_prev_world to the fitted pose.
+/// It states more than the fit's information matrix promises, because the errors of tracks on one structure are not
+/// independent.
+[[nodiscard]] Matrix6d motion_covariance(const PoseFit& pose, const Se3& T_prev_world);
+
 }  // namespace plumb::vo

@@ -238,7 +238,6 @@ void WindowRefiner::refine(Window& window, TrackTable& tracks, const Eigen::Vect
     }
     const bool converged = best >= 0.0 && best - cost_ < kConverged * cost_;
     best = cost_;
-    last_cost_ = cost_;
     save(window, tracks);
     if (converged || !solve()) break;
     apply(window, tracks);

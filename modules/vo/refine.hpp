@@ -23,8 +23,6 @@ class WindowRefiner {
   void refine(Window& window, TrackTable& tracks, const Eigen::Vector2d& focal_px,
               int fixed_keyframes, int max_iterations);
 
-  [[nodiscard]] double last_cost() const { return last_cost_; }
-
  private:
   static constexpr int kMaxFree = kMaxFrames - 1;
   static constexpr std::size_t kNumBlocks = std::size_t{kMaxFree} * kMaxFree;
@@ -68,7 +66,6 @@ class WindowRefiner {
   std::array<Se3, kMaxFrames> saved_poses_;
   double damping_ = 0.0;
   double cost_ = 0.0;
-  double last_cost_ = 0.0;
 };
 
 /// How well one track fits the window as it stands.

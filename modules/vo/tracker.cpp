@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/percentile.hpp"
 #include "modules/vo/klt.hpp"
 #include "modules/vo/patch.hpp"
 #include "modules/vo/projection.hpp"
@@ -144,11 +145,7 @@ int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, 
       scratch_.push_back(static_cast<double>((there.px - guess.px).norm()));
     }
   }
-  if (!scratch_.empty()) {
-    const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-    std::nth_element(scratch_.begin(), middle, scratch_.end());
-    surprise_px_ = *middle;
-  }
+  if (!scratch_.empty()) surprise_px_ = upper_median(scratch_);
   return num_found;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/percentile.hpp"
+
 namespace plumb::vo {
 namespace {
 
@@ -208,11 +210,7 @@ RotationFit fit_rotation(const std::vector<RayPair>& pairs, double focal_px,
     if (!step.allFinite()) break;
     fit.R_second_first = exp_so3(step) * fit.R_second_first;
   }
-  if (!scratch.empty()) {
-    const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
-    std::nth_element(scratch.begin(), middle, scratch.end());
-    fit.median_px = *middle;
-  }
+  if (!scratch.empty()) fit.median_px = upper_median(scratch);
   return fit;
 }
 

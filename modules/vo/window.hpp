@@ -34,7 +34,8 @@ class Window {
   Window(int width_px, int height_px);
 
   void clear();
-  /// Adds the newest frame. @pre a slot is free: call trim() once per frame
+  /// Adds the newest frame and returns its slot.
+  /// @pre a slot is free (Keyframes::trim_recent() frees one per frame)
   int add(std::int64_t seq, const Se3& T_cam_world);
   /// Stores `image` with the frame, which makes it a host. @pre num_keyframes() <= kMaxKeyframes
   void make_keyframe(int slot, const ImageView& image);
