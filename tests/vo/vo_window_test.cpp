@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "modules/vo/motion_model.hpp"
 #include "modules/vo/track.hpp"
 
 namespace plumb::vo {
@@ -94,25 +93,6 @@ TEST(Track, RemembersInWhichSlotsItWasSeen) {
   track.forget(3);
   EXPECT_FALSE(track.seen_in(3));
   EXPECT_EQ(track.xy_in(11), Eigen::Vector2d(0.3, 0.4));
-}
-
-TEST(MotionModel, RepeatsTheLastMotionOverAnyInterval) {
-  MotionModel motion;
-  EXPECT_FALSE(motion.known());
-  EXPECT_EQ(motion.predict(0.1).t.norm(), 0.0);
-  const Se3 T{exp_so3({0.0, 0.02, 0.0}), {0.01, 0.0, 1.0}};
-  motion.observe(T, 0.1);
-  EXPECT_LT((motion.predict(0.1).t - T.t).norm(), 1e-12);
-  EXPECT_LT((motion.predict(0.1).R - T.R).norm(), 1e-12);
-  EXPECT_LT((motion.predict(0.3).t - 3.0 * T.t).norm(), 1e-12);
-}
-
-TEST(MotionModel, DecayShrinksItAndTurnsFaster) {
-  MotionModel motion;
-  motion.observe({exp_so3({0.0, 0.02, 0.0}), {0.0, 0.0, 1.0}}, 0.1);
-  motion.decay(1.0, 1.0);
-  EXPECT_NEAR(motion.predict(0.1).t.z(), std::exp(-1.0), 1e-12);
-  EXPECT_NEAR(log_so3(motion.predict(0.1).R).y(), 0.02 * std::exp(-2.0), 1e-12);
 }
 
 }  // namespace
