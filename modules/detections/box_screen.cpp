@@ -18,7 +18,7 @@ bool off_road(const DetectionsConfig& config, const CameraModel& camera, const R
   RoadPlane near = plane;
   near.pitch_rad += kHorizonSigmas * std::sqrt(plane.cov(0, 0));
   const Eigen::Vector2d foot_px(box.centre_u_px(), box.bottom_px);
-  if (!back_project_foot(camera, near, foot_px, Eigen::Matrix2d::Zero())) return true;
+  if (!back_project_foot(camera, near, foot_px)) return true;
   const double distance_m =
       config.height_prior(detection.object_class).mean_m * camera.fy_px / box.height_px();
   const double lateral_m = distance_m * camera.to_normalized(foot_px).x();
