@@ -45,12 +45,12 @@ void write_object(const ObjectOutput& object, object_t* out) {
   out->age_s = object.age_s;
 }
 
-bool velocity_from_wire(const object_t& message, ObjectOutput* object) {
+const char* velocity_from_wire(const object_t& message, ObjectOutput* object) {
   object->velocity_holds = !std::isnan(message.velocity_ground_m_s[0]);
-  if (!object->velocity_holds) return true;
+  if (!object->velocity_holds) return nullptr;
   object->velocity_m_s = Eigen::Vector2d(message.velocity_ground_m_s);
-  return object->velocity_m_s.allFinite() &&
-         from_wire(message.velocity_cov_m2_s2, &object->velocity_cov_m2_s2);
+  if (!object->velocity_m_s.allFinite()) return "a velocity is not finite";
+  return from_wire(message.velocity_cov_m2_s2, &object->velocity_cov_m2_s2);
 }
 
 const char* object_from_wire(const object_t& message, ObjectOutput* object) {
@@ -81,8 +81,8 @@ const char* object_from_wire(const object_t& message, ObjectOutput* object) {
   const bool sound = object->position_m.allFinite() && std::isfinite(object->yaw_rad) &&
                      object->yaw_std_rad >= 0.0 && object->size_m.allFinite() &&
                      object->size_m.minCoeff() >= 0.0 && object->size_std_m.minCoeff() >= 0.0 &&
-                     from_wire(message.position_cov_m2, &object->position_cov_m2) &&
-                     velocity_from_wire(message, object);
+                     from_wire(message.position_cov_m2, &object->position_cov_m2) == nullptr &&
+                     velocity_from_wire(message, object) == nullptr;
   return sound ? nullptr : "objects: a place, size or deviation is not a number";
 }
 
