@@ -33,7 +33,7 @@ Layout find_layout(const SequenceOptions& options) {
                    odometry.filename().string() + " nor " + raw.filename().string() + "/data");
 }
 
-/// The pair belongs together: whoever states one of them means 0 by leaving the other out.
+/// The two coefficients form a pair: when only one of them is given, the other one is 0.
 void set_residual(std::optional<double> k1, std::optional<double> k2, CameraModel* camera) {
   const bool stated = k1 || k2;
   camera->residual_k1 = stated ? k1.value_or(0.0) : kKittiResidualK1;
@@ -123,7 +123,7 @@ void read_oxts_truth(const fs::path& drive, const RawCalibration& files,
   }
 }
 
-/// The one plane file of the folder, if there is one.
+/// Returns the plane file of the folder, or an empty path when there is none.
 fs::path find_planes(const fs::path& folder) {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -147,7 +147,7 @@ void read_plane_file(const fs::path& file, Sequence* sequence) {
   sequence->notes.push_back("ground planes from " + file.string());
 }
 
-/// KITTI's truth is of the left grey camera.
+/// Moves the truth from KITTI's left grey camera to the camera of the images.
 void move_truth(const Eigen::Vector3d& t_left_cam_m, Sequence* sequence) {
   const PoseMatrix T_left_cam = to_matrix({Eigen::Matrix3d::Identity(), t_left_cam_m});
   for (SequenceFrame& frame : sequence->frames) {
