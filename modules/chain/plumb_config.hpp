@@ -1,4 +1,4 @@
-/// All settings of all processes: one file serves them all, and a key that none of them owns is an
+/// The settings of all processes. One file serves them all, and a key that no module owns is an
 /// error.
 #pragma once
 

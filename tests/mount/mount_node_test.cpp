@@ -17,10 +17,10 @@ class MountNodeTest : public testing::Test {
   MountNodeTest() { config_.state_file = (folder_.path() / "mount.toml").string(); }
 
   /// Ten images a second; returns how many messages came. Keeps the last one.
-  int drive(MountNode* node, double way_m, double yaw_deg) {
+  int drive(MountNode* node, double distance_m, double yaw_deg) {
     int num_messages = 0;
     GroundOutput output = test::straight_on({0.0, 0.0, yaw_deg * kDegree});
-    for (double m = 0.0; m < way_m; m += 0.1 * test::kSpeed_m_s) {
+    for (double m = 0.0; m < distance_m; m += 0.1 * test::kSpeed_m_s) {
       output.capture_us = now_us_ += 100'000;
       const mount_t* message = node->update(output);
       if (message == nullptr) continue;
