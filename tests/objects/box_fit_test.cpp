@@ -16,7 +16,7 @@ constexpr Contact kNoInset{};
 
 MeasuredBox measured(const StateVector& state, const RoadPlane& plane, double std_px) {
   MeasuredBox box;
-  box.edges_px = see_cuboid(kSceneCamera, plane, state, 0.0)->edges_px;
+  box.edges_px = project_cuboid(kSceneCamera, plane, state, 0.0)->edges_px;
   box.var_px2.setConstant(std_px * std_px);
   return box;
 }

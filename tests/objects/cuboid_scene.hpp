@@ -24,7 +24,7 @@ inline constexpr double kSceneInset_m = 0.2;
 
 /// What a perfect detector says; what lies outside the image is cut off.
 inline Detection detect(const StateVector& state, const RoadPlane& plane, std::int32_t track_id) {
-  const auto seen = see_cuboid(kSceneCamera, plane, state, kSceneInset_m);
+  const auto seen = project_cuboid(kSceneCamera, plane, state, kSceneInset_m);
   Detection detection;
   detection.track_id = track_id;
   detection.object_class = ObjectClass::kCar;

@@ -132,7 +132,7 @@ TEST(Objects, VelocityIsOverGroundWhileTheCameraDrivesAndTurns) {
   drive.add(moving(car_at(25.0, 0.0, 0.0), 14.0, 0.0), 1);
   const ObjectOutput* last = nullptr;
   for (int k = 0; k < 25; ++k) last = &drive.step().objects[0];
-  ASSERT_TRUE(last->velocity_holds);
+  ASSERT_TRUE(last->velocity_valid);
   EXPECT_NEAR(last->velocity_m_s.norm(), 14.0, 1.0);
   const double heading = std::atan2(drive.car(0)(kVelocityY), drive.car(0)(kVelocityX));
   EXPECT_NEAR(last->yaw_rad, heading, 0.15);
@@ -237,7 +237,7 @@ TEST(Objects, ACarThatPullsAwayHasNoTimeToCollision) {
 TEST(Objects, VelocityDoesNotHoldWhileTheCamerasMotionIsUnknown) {
   Drive drive(10.0);
   drive.add(car_at(35.0, -4.0, 0.0), 1);
-  for (int k = 0; k < 15; ++k) EXPECT_FALSE(drive.step(false).objects[0].velocity_holds);
+  for (int k = 0; k < 15; ++k) EXPECT_FALSE(drive.step(false).objects[0].velocity_valid);
   const ObjectOutput relative = drive.step(false).objects[0];
   EXPECT_NEAR(relative.velocity_m_s.x(), -10.0, 2.5);
   EXPECT_NEAR(relative.time_to_collision_s, relative.position_m.norm() / 10.0, 0.4);

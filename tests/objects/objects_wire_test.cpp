@@ -118,7 +118,7 @@ ObjectsOutput sample_objects() {
   object.reason = ObjectReason::kHidden;
   object.position_m = {20.0, -3.0};
   object.position_cov_m2 << 1.0, 0.1, 0.1, 0.2;
-  object.velocity_holds = true;
+  object.velocity_valid = true;
   object.velocity_m_s = {9.0, 0.5};
   object.velocity_cov_m2_s2 << 0.4, 0.0, 0.0, 0.3;
   object.yaw_rad = 0.05;
@@ -129,7 +129,7 @@ ObjectsOutput sample_objects() {
   object.age_s = 1.5;
   EXPECT_TRUE(output.objects.push_back(object));
   object.track_id = 6;
-  object.velocity_holds = false;
+  object.velocity_valid = false;
   EXPECT_TRUE(output.objects.push_back(object));
   return output;
 }
@@ -154,7 +154,7 @@ TEST(ObjectsWire, RoundTripThroughBytesKeepsEverything) {
   EXPECT_EQ(object.velocity_m_s, Eigen::Vector2d(9.0, 0.5));
   EXPECT_EQ(object.size_std_m.x(), 0.4);
   EXPECT_TRUE(std::isnan(object.time_to_collision_s));
-  EXPECT_FALSE(output.objects[1].velocity_holds);
+  EXPECT_FALSE(output.objects[1].velocity_valid);
   bytes.pop_back();
   EXPECT_FALSE(decode_bounded(bytes, &decoded));
 }
