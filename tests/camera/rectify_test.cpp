@@ -25,7 +25,7 @@ struct Comparison {
   int num_pixels = 0;
 };
 
-/// Grey levels between ours and OpenCV's, where both saw the scene.
+/// Difference in grey levels between our result and OpenCV's, where both are valid.
 Comparison compare(const Rectifier& rectifier, const cv::Mat& ours, const cv::Mat& theirs) {
   Comparison result;
   for (int v = 0; v < ours.rows; ++v) {
@@ -41,7 +41,7 @@ Comparison compare(const Rectifier& rectifier, const cv::Mat& ours, const cv::Ma
   return result;
 }
 
-/// OpenCV's map, sampled in floating point: cv::remap on 8 bits rounds the map to 1/32 px itself.
+/// Samples OpenCV's map in floating point, because cv::remap on 8 bits rounds the map to 1/32 px.
 cv::Mat opencv_rectified(const cv::Mat& image, const cv::Mat& map_u, const cv::Mat& map_v) {
   cv::Mat out(image.size(), CV_32F, cv::Scalar(0));
   for (int v = 0; v < out.rows; ++v) {
@@ -77,8 +77,8 @@ TEST(Rectify, PlumbBobMatchesOpenCvsMapWithinOneGreyLevel) {
       matrix_of(published), image.size(), CV_32F, map_u, map_v);
   const Comparison c = compare(rectifier, ours, opencv_rectified(image, map_u, map_v));
   EXPECT_GT(c.num_pixels, kWidth * kHeight * 3 / 4);
-  EXPECT_LT(c.max, 0.75);   // 0.5 of it is rounding to a byte
-  EXPECT_LT(c.mean, 0.27);  // rounding alone gives 0.25
+  EXPECT_LT(c.max, 0.75);   // rounding to a byte contributes 0.5
+  EXPECT_LT(c.mean, 0.27);  // rounding to a byte contributes 0.25
 }
 
 TEST(Rectify, FisheyeMatchesOpenCvsMapWithinOneGreyLevel) {

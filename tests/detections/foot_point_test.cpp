@@ -22,11 +22,11 @@ RoadPlane plane(double pitch_rad, double roll_rad, double height_m) {
   return result;
 }
 
-/// Level, nose down, nose up and tilted, at different heights.
+/// Planes of a level, nose-down, nose-up and rolled camera at different heights.
 const std::array<RoadPlane, 4> kPlanes{plane(0.0, 0.0, 1.65), plane(0.02, 0.0, 1.3),
                                        plane(-0.015, 0.01, 1.9), plane(0.01, -0.03, 1.65)};
 
-/// (u, v_foot, v_head), all with the foot below every horizon above.
+/// Boxes (u, v_foot, v_head) whose foot is below the horizon of every plane.
 const std::array<Eigen::Vector3d, 4> kBoxes{
     Eigen::Vector3d(609.6, 200.0, 170.0), Eigen::Vector3d(200.0, 300.0, 150.0),
     Eigen::Vector3d(1000.0, 230.0, 190.0), Eigen::Vector3d(700.0, 350.0, 180.0)};
@@ -52,7 +52,7 @@ TEST(RoadPlane, GroundAndCameraCoordinatesAreInverses) {
 }
 
 TEST(RoadPlane, NoseDownRaisesTheHorizonInTheImage) {
-  // A far point on the road ahead is seen above the principal point when the camera looks down.
+  // When the camera looks down, a far point on the road appears above the principal point.
   const RoadPlane road = plane(0.02, 0.0, 1.65);
   const Eigen::Vector3d far_cam = road.cam_from_ground({1e6, 0.0, 0.0});
   EXPECT_LT(camera(0.0).project(far_cam).y(), camera(0.0).cy_px);
@@ -110,7 +110,7 @@ TEST(PitchFromBox, FollowsTheRoll) {
 }
 
 TEST(PitchFromBox, IsTheLinearFormOfTheHorizonRowToAThousandth) {
-  // v_h = v_foot - (v_foot - v_head) h / H.
+  // The linear form is v_h = v_foot - (v_foot - v_head) h / H.
   const auto pitch = pitch_from_box(camera(0.0), 0.0, {600.0, 220.0}, 180.0, 0.9);
   ASSERT_TRUE(pitch.has_value());
   const double v_h = 220.0 - 40.0 / 0.9;

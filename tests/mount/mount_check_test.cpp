@@ -74,7 +74,7 @@ TEST_F(MountCheckTest, AKnockedCameraIsSaidAndTheAlarmHasHysteresis) {
     Eigen::Vector3d off_deg = Eigen::Vector3d::Zero();
     off_deg(axis) = 2.0;
     EXPECT_EQ(drive(250.0, kMount_deg + off_deg).status, MountStatus::kMoved) << axis;
-    // Between the two limits it stays.
+    // Between the two limits the status stays as it is.
     off_deg(axis) = 0.75;
     EXPECT_EQ(drive(250.0, kMount_deg + off_deg).status, MountStatus::kMoved) << axis;
     EXPECT_EQ(drive(250.0, kMount_deg).status, MountStatus::kSteady) << axis;

@@ -19,7 +19,7 @@ TEST(Cuboid, IsTheWorkedExampleOfACarStraightAhead) {
   EXPECT_NEAR(seen->edges_px(0), camera.cx_px - 721.5 * 0.5 * 1.67 / rear_m, 1e-9);
   EXPECT_NEAR(seen->edges_px(2), camera.cx_px + 721.5 * 0.5 * 1.67 / rear_m, 1e-9);
   EXPECT_NEAR(seen->edges_px(3), camera.cy_px + 721.5 * 1.65 / rear_m, 1e-9);
-  // The roof is below the camera: its far edge is the higher one.
+  // The roof is below the camera, so its far edge is the upper one in the image.
   const double front_m = 20.0 + 0.5 * 1.67 * 2.4;
   EXPECT_NEAR(seen->edges_px(1), camera.cy_px + 721.5 * (1.65 - 1.53) / front_m, 1e-9);
 }
@@ -68,9 +68,10 @@ TEST(Cuboid, DerivativesAgreeWithDifferences) {
             by_plane, Eigen::Vector3d(-0.01, roll, std::log(1.65)), 1e-6);
         EXPECT_LT((J_state - seen->J_state).norm(), 1e-5 * seen->J_state.norm());
         EXPECT_LT((J_plane - seen->J_plane).norm(), 1e-5 * seen->J_plane.norm());
-        const Eigen::Vector4d by_inset = (project_cuboid(camera, plane, state, 0.2 + 1e-6)->edges_px -
-                                          project_cuboid(camera, plane, state, 0.2 - 1e-6)->edges_px) /
-                                         2e-6;
+        const Eigen::Vector4d by_inset =
+            (project_cuboid(camera, plane, state, 0.2 + 1e-6)->edges_px -
+             project_cuboid(camera, plane, state, 0.2 - 1e-6)->edges_px) /
+            2e-6;
         EXPECT_LT((by_inset - seen->J_inset).norm(), 1e-5 * seen->J_inset.norm());
       }
     }

@@ -84,7 +84,7 @@ TEST(GroundWire, RefusesAPlaneThatIsNoneWhenItSaysItHolds) {
               m->status = ground_plane_t::STATUS_INVALID;
               m->height_m = 0.0;
             }))
-      << "an invalid plane may hold anything";
+      << "an invalid plane may contain any values";
 }
 
 TEST(GroundWire, RefusesUnknownNumbersInThePlane) {

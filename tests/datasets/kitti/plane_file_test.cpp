@@ -32,7 +32,7 @@ TEST(PlaneFile, CallsNoseDownPositivePitch) {
 }
 
 TEST(PlaneFile, CallsRightSideDownPositiveRoll) {
-  // WHEN the camera's right side is low, "down" has a part to the camera's right.
+  // WHEN the camera's right side is low, "down" has a component to the camera's right.
   const double angle_rad = 0.01;
   const TruePlane plane{{std::sin(angle_rad), std::cos(angle_rad), 0.0}, 1.65};
   EXPECT_NEAR(plane.roll_rad(), angle_rad, 1e-12);
