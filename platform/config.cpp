@@ -194,9 +194,9 @@ void ConfigWriter::operator()(const char* key, const std::string& value,
 }
 
 std::string ConfigWriter::text() const {
-  return "# Every setting of every plumb-* program, with its default. A file may hold any part of "
-         "it;\n"
-         "# what it leaves out keeps the default. Written by: plumb-vo --print-config\n" +
+  return "# Every setting of every plumb-* program with its default value. A file may contain any "
+         "part of\n"
+         "# it; a missing key keeps its default. Written by: plumb-vo --print-config\n" +
          sections();
 }
 

@@ -93,7 +93,7 @@ PoseMatrix to_matrix(const Se3& T) {
 void read_pose_file(const fs::path& file, const std::vector<NumberedImage>& images,
                     Sequence* sequence) {
   const std::vector<PoseMatrix> poses = read_poses(file);
-  if (poses.empty()) throw InputError(file.string() + " holds no pose");
+  if (poses.empty()) throw InputError(file.string() + " has no pose");
   const RowLookup lookup(file, poses.size(), images);
   for (std::size_t i = 0; i < images.size(); ++i) {
     sequence->frames[i].T_world_cam = poses[lookup.row(i, images[i].number)];
@@ -132,7 +132,7 @@ fs::path find_planes(const fs::path& folder) {
   }
   if (found.size() > 1) {
     throw InputError(folder.string() +
-                     " holds more than one gt_ground_plane*.txt: --planes names one");
+                     " has more than one gt_ground_plane*.txt; name one with --planes");
   }
   return found.empty() ? fs::path() : found.front();
 }
