@@ -1,5 +1,5 @@
-/// Every LCM channel of the system, in the order of the data flow. No other file spells a channel's
-/// name.
+/// Every LCM channel of the system, in the order of the data flow.
+/// No other file spells a channel's name.
 #pragma once
 
 #include <cstdint>

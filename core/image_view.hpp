@@ -1,8 +1,8 @@
 /// A view of an 8-bit grey image that somebody else owns.
 ///
 /// Frames:
-///   img: u right, v down; (0,0) is the centre of the upper left pixel. Rows run from top to
-///   bottom.
+///   img: u right, v down; (0,0) is the centre of the upper left pixel.
+///   Rows run from top to bottom.
 #pragma once
 
 #include <cstddef>

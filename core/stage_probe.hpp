@@ -6,8 +6,8 @@ namespace plumb {
 class StageProbe {
  public:
   virtual ~StageProbe() = default;
-  /// Ends the stage `name`, which began at the previous mark() or at begin(). `name` is a string
-  /// literal.
+  /// Ends the stage `name`, which began at the previous mark() or at begin().
+  /// `name` is a string literal.
   virtual void mark(const char* name) = 0;
   /// Begins a frame.
   virtual void begin() = 0;

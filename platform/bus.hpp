@@ -9,8 +9,8 @@
 ///   bytes (each camera image), which it frees after dispatch. Our promise of no allocation covers
 ///   our libraries and our loop, not liblcm.
 /// Order:
-///   Messages are handled in the order of their arrival. A queue that overflows shows as a gap in
-///   seq.
+///   Messages are handled in the order of their arrival.
+///   A queue that overflows shows as a gap in seq.
 /// Errors:
 ///   Constructors throw BusError when the network cannot be joined. Later failures are counted in
 ///   Counters, and an exception that a handler throws is logged and counted as a rejection.
@@ -54,8 +54,8 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// A descriptor that is readable while a message waits. Throws BusError when the network cannot
-  /// be joined.
+  /// A descriptor that is readable while a message waits.
+  /// Throws BusError when the network cannot be joined.
   [[nodiscard]] int fileno();
   /// Dispatches at most one message and waits up to `timeout_ms` for it. Returns true when there
   /// was one. `busy_since_us` (EventLoop::busy_since_us) is the earliest time at which the message
@@ -63,8 +63,8 @@ class Bus {
   bool handle(int timeout_ms = 0, std::int64_t busy_since_us = 0);
 
   /// [bytes] Receive buffer that the kernel granted: half of SO_RCVBUF, because the kernel accounts
-  /// its own overhead in the other half. It is 0 before the first subscription and without a
-  /// socket.
+  /// its own overhead in the other half. It is 0 before the first
+  /// subscription and without a socket.
   [[nodiscard]] int receive_buffer_bytes() const { return receive_buffer_bytes_; }
   [[nodiscard]] const std::string& url() const { return url_; }
   [[nodiscard]] Counters& counters() { return *counters_; }

@@ -30,8 +30,8 @@ namespace plumb {
   return static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
 }
 
-/// [us] Processor time that all threads of this process have used. Other processes do not affect
-/// it.
+/// [us] Processor time that all threads of this process have used.
+/// Other processes do not affect it.
 [[nodiscard]] inline std::int64_t process_cpu_us() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

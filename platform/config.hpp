@@ -1,5 +1,5 @@
-/// Strict TOML configuration. Exactly one visit() owns each key, and a wrong value is refused,
-/// never repaired.
+/// Strict TOML configuration. Exactly one visit() owns each key,
+/// and a wrong value is refused, never repaired.
 ///
 /// Errors:
 ///   Every function that reads throws ConfigError. Its text names the file, the line, the key and
@@ -113,8 +113,8 @@ class ConfigWriter {
   std::vector<std::pair<std::string, std::string>> sections_;  ///< name, lines
 };
 
-/// Writes `config` as TOML with a comment on every key. config/default.toml is this text for the
-/// default values.
+/// Writes `config` as TOML with a comment on every key.
+/// config/default.toml is this text for the default values.
 template <typename Config>
 [[nodiscard]] std::string render_config(const Config& config) {
   ConfigWriter writer;

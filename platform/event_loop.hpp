@@ -1,11 +1,11 @@
 /// A loop that waits for descriptors, timers and the two stop signals.
 ///
 /// Threads:
-///   One thread owns the loop; every callback runs in it. No function may be called from another
-///   thread.
+///   One thread owns the loop; every callback runs in it.
+///   No function may be called from another thread.
 /// Order:
-///   Each round serves every ready source once, so that a flood on one source cannot starve a
-///   timer.
+///   Each round serves every ready source once,
+///   so that a flood on one source cannot starve a timer.
 /// Memory:
 ///   Sources are registered before run(). Nothing is allocated while it runs.
 /// Errors:
@@ -40,13 +40,13 @@ class EventLoop {
   /// Runs `callback` whenever `fd` is readable or has failed. The caller keeps the descriptor and
   /// closes it after the loop.
   void watch(int fd, Callback callback);
-  /// Runs `callback` every `period_us` without drift. It runs once for all periods that were
-  /// missed.
+  /// Runs `callback` every `period_us` without drift.
+  /// It runs once for all periods that were missed.
   TimerId every(std::int64_t period_us, Callback callback);
   /// Creates a timer that is not armed.
   TimerId timer(Callback callback);
-  /// Makes the timer fire once at the time `at_us` of monotonic_us(), or at once when that has
-  /// passed.
+  /// Makes the timer fire once at the time `at_us` of monotonic_us(),
+  /// or at once when that has passed.
   void arm_at(TimerId timer, std::int64_t at_us);
   void disarm(TimerId timer);
 

@@ -1,8 +1,8 @@
 /// The state of one process and the process_health_t that reports it.
 ///
 /// Memory:
-///   The message is built in place. Its texts and stages keep the capacity that they get at
-///   construction.
+///   The message is built in place. Its texts and stages keep the
+///   capacity that they get at construction.
 #pragma once
 
 #include <cstdint>

@@ -76,8 +76,8 @@ class LogReader {
   std::vector<std::uint8_t> buffer_;
 };
 
-/// Writes a log. After a failed write, for example on a full disk, the file is cut back to its last
-/// complete event.
+/// Writes a log. After a failed write, for example on a full disk,
+/// the file is cut back to its last complete event.
 class LogWriter {
  public:
   /// Creates or replaces the file. Throws LogError.

@@ -62,8 +62,8 @@ class V4l2Camera {
   V4l2Camera(const V4l2Camera&) = delete;
   V4l2Camera& operator=(const V4l2Camera&) = delete;
 
-  /// A descriptor that is readable while take() has a result. It stays the same over open() and
-  /// close().
+  /// A descriptor that is readable while take() has a result.
+  /// It stays the same over open() and close().
   [[nodiscard]] int fileno() const { return epoll_fd_; }
 
   /// Opens the device, negotiates the format and starts streaming. Returns false, with the device
@@ -79,8 +79,8 @@ class V4l2Camera {
   /// Releases the previous frame and takes the oldest that waits. Never blocks.
   /// @pre is_open()
   [[nodiscard]] V4l2Status take(V4l2Frame* frame);
-  /// Returns the frame's buffer to the driver. The sooner this is called, the fewer buffers the
-  /// driver needs.
+  /// Returns the frame's buffer to the driver.
+  /// The sooner this is called, the fewer buffers the driver needs.
   void release();
 
   /// The reason why open() refused, or why take() returned kGone or kFailed.

@@ -21,8 +21,8 @@ namespace plumb {
 
 class CameraNode {
  public:
-  /// A relative camera.mask_file is relative to `folder`. `probe` outlives the node. Throws
-  /// UsageError.
+  /// A relative camera.mask_file is relative to `folder`.
+  /// `probe` outlives the node. Throws UsageError.
   /// @pre the image size and the focal lengths in `config` are set
   CameraNode(const CameraConfig& config, const std::filesystem::path& folder, StageProbe* probe);
 

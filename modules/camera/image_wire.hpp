@@ -1,5 +1,5 @@
-/// Converts image_t and camera_calibration_t to the types of the modules and back, without an LCM
-/// instance.
+/// Converts image_t and camera_calibration_t to the types of the modules and back,
+/// without an LCM instance.
 ///
 /// Errors:
 ///   A bounded reader parses images, not the generated decoder, so that a corrupt length can

@@ -63,8 +63,8 @@ void KittiSource::complete(CameraConfig* config) const {
   take_or_compare("camera.fy_px", camera.fy_px, &config->fy_px);
   take_or_compare("camera.cx_px", camera.cx_px, &config->cx_px);
   take_or_compare("camera.cy_px", camera.cy_px, &config->cy_px);
-  // The two coefficients describe one lens, so those of the settings and of the folder are not
-  // mixed.
+  // The two coefficients describe one lens,
+  // so those of the settings and of the folder are not mixed.
   if (config->residual_k1 == 0.0 && config->residual_k2 == 0.0) {
     config->residual_k1 = camera.residual_k1;
     config->residual_k2 = camera.residual_k2;

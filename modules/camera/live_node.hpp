@@ -1,8 +1,8 @@
 /// Publishes the frames of a V4L2 camera and reacts to its loss.
 ///
 /// Timeouts:
-///   A time without frames longer than camera.timeout_s is reported. Three times that counts as a
-///   loss.
+///   A time without frames longer than camera.timeout_s is reported.
+///   Three times that counts as a loss.
 /// Loss:
 ///   With camera.on_loss = "retry" the device is opened again after pauses that double. With "exit"
 ///   the reason is published in one more health message, and the process ends with exit code 1.

@@ -36,12 +36,12 @@ class Pacer {
 class SequenceTracker {
  public:
   /// Sequence number of the next frame: one more than the last, plus one per frame that the driver
-  /// dropped. A counter that stands still or steps back counts as one step, because some drivers do
-  /// not count.
+  /// dropped. A counter that stands still or steps back counts as one step,
+  /// because some drivers do not count.
   [[nodiscard]] std::int64_t next(std::uint32_t driver_sequence);
 
-  /// Tells that the device was opened again, so that its counter restarts. `num_missed` frames are
-  /// assumed lost.
+  /// Tells that the device was opened again, so that its counter restarts.
+  /// `num_missed` frames are assumed lost.
   void restart(std::int64_t num_missed);
 
   /// Number of frames missing so far, including those lost at restarts.

@@ -22,8 +22,8 @@ class RecordedSource {
   /// two contradict each other.
   virtual void complete(CameraConfig* config) const = 0;
 
-  /// Reads the next frame. Returns false after the last. Throws InputError when the recording is
-  /// damaged.
+  /// Reads the next frame. Returns false after the last.
+  /// Throws InputError when the recording is damaged.
   [[nodiscard]] virtual bool read(GreyFrame* frame) = 0;
 };
 

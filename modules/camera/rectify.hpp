@@ -45,8 +45,8 @@ class Rectifier {
   Rectifier(int width_px, int height_px, const PinholePx& captured, const Lens& lens,
             const PinholePx& published);
 
-  /// True when apply() only copies, because there is no distortion and both pinhole cameras are
-  /// equal.
+  /// True when apply() only copies, because there is no distortion and
+  /// both pinhole cameras are equal.
   [[nodiscard]] bool is_identity() const { return identity_; }
 
   /// Interpolates bilinearly with 8-bit weights. Pixels that the camera did not see repeat the
@@ -54,8 +54,8 @@ class Rectifier {
   /// @pre `captured` has the constructed size; `out` has width_px * height_px bytes
   void apply(const ImageView& captured, std::uint8_t* out) const;
 
-  /// 1 for pixels that the camera did not see or where the lens polynomial folds over; rows without
-  /// gaps.
+  /// 1 for pixels that the camera did not see or where the lens polynomial folds over;
+  /// rows without gaps.
   [[nodiscard]] const std::vector<std::uint8_t>& unseen() const { return unseen_; }
 
  private:

@@ -3,8 +3,8 @@
 /// Sequence:
 ///   The number of a frame is its index, from 0.
 /// Time:
-///   The presentation times of the file are used where they increase, else its nominal frame
-///   period.
+///   The presentation times of the file are used where they increase,
+///   else its nominal frame period.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-/// The settings of all processes. One file serves them all, and a key that no module owns is an
-/// error.
+/// The settings of all processes. One file serves them all,
+/// and a key that no module owns is an error.
 #pragma once
 
 #include "modules/camera/camera_config.hpp"

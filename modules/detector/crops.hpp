@@ -26,8 +26,8 @@ using Crops = FixedVector<Crop, kMaxCrops>;
 /// @pre sizes above 0
 [[nodiscard]] Crops make_crops(int width_px, int height_px, int num_crops);
 
-/// True when a border of `crop` inside the image cuts `box`. The neighbouring crop then sees all of
-/// it.
+/// True when a border of `crop` inside the image cuts `box`.
+/// The neighbouring crop then sees all of it.
 [[nodiscard]] bool is_cut_by(const Crop& crop, const Box& box, int width_px, int height_px);
 
 }  // namespace plumb

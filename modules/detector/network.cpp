@@ -116,8 +116,8 @@ void Network::Impl::search(const cv::Mat& image, const Crop& crop) {
 }
 
 void Network::Impl::take_rows(const cv::Mat& rows, const cv::Mat& image, const Crop& crop) {
-  // Darknet's rows are relative to the size of the input, and its class scores include the
-  // objectness.
+  // Darknet's rows are relative to the size of the input,
+  // and its class scores include the objectness.
   const double scale = onnx ? crop.side_px / config.input_px : crop.side_px;
   for (int r = 0; r < rows.rows; ++r) {
     const auto* row = rows.ptr<float>(r);

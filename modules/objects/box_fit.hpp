@@ -31,8 +31,8 @@ struct MeasuredBox {
   std::array<bool, 4> cut{};
 };
 
-/// Distance inside the outline of an object at which it touches the road, and its standard
-/// deviation.
+/// Distance inside the outline of an object at which it touches the road,
+/// and its standard deviation.
 struct Contact {
   double inset_m = 0.0;
   double inset_std_m = 0.0;
@@ -41,12 +41,12 @@ struct Contact {
 struct BoxFitResult {
   bool ok = false;
   StateEstimate estimate;
-  /// Squared Mahalanobis distance of the box from the prediction of the prior, without robust
-  /// weights.
+  /// Squared Mahalanobis distance of the box from the prediction of the prior,
+  /// without robust weights.
   double chi2 = 0.0;
   double log_det = 0.0;  ///< [ln px^8] log determinant of the covariance in chi2
-  /// Squared Mahalanobis distance at the solution with robust weights. It compares the fits of one
-  /// box.
+  /// Squared Mahalanobis distance at the solution with robust weights.
+  /// It compares the fits of one box.
   double cost = 0.0;
 };
 

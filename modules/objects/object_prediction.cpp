@@ -46,8 +46,8 @@ void predict_state(const TrackView& view, const AxesStep& axes, double dt_s, dou
   const double keep = std::exp(-dt_s / view.objects.plane_error_time_s);
   turn(kPlaneError, kPlaneError) = keep;
   x(kPlaneError) *= keep;
-  // So is the heading. Its mean is the heading, along or across the road, that the track started
-  // with.
+  // So is the heading. Its mean is the heading,
+  // along or across the road, that the track started with.
   const double keep_yaw = std::exp(-dt_s / kYawTime_s);
   turn(kYaw, kYaw) = keep_yaw;
   x(kYaw) = heading_rad + keep_yaw * wrapped(x(kYaw) - heading_rad);

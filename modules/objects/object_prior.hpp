@@ -20,8 +20,8 @@ namespace plumb {
 /// How far inside its outline an object of this class touches the road.
 [[nodiscard]] Contact contact_of(const ObjectsConfig& config, ObjectClass object_class);
 
-/// The edges of a detection's box and their variances. An edge that nearer boxes hide has a larger
-/// variance.
+/// The edges of a detection's box and their variances.
+/// An edge that nearer boxes hide has a larger variance.
 [[nodiscard]] MeasuredBox measured_box(const DetectionsConfig& config, const CameraModel& camera,
                                        const DetectionFrame& frame, std::size_t index);
 

@@ -2,8 +2,8 @@
 ///
 /// Two extended Kalman filters estimate its 3D box on the road: one for a moving object and one for
 /// a stationary object. How well each predicts the next box decides their odds, and the estimate is
-/// their mixture. The stationary filter measures the distance from the camera's own motion, by
-/// triangulation.
+/// their mixture. The stationary filter measures the distance from the camera's own motion,
+/// by triangulation.
 ///
 /// Frames:
 ///   ground of the newest image: x forward, y left, z up, on the road under the camera.
@@ -35,11 +35,11 @@ class ObjectTrack {
   [[nodiscard]] bool over_ground() const { return over_ground_; }
 
  private:
-  /// Updates the two filters and their odds with the fits of a box. Returns false when it fits
-  /// neither.
+  /// Updates the two filters and their odds with the fits of a box.
+  /// Returns false when it fits neither.
   bool update_hypotheses(const BoxFitResult& moving, const BoxFitResult& stationary);
-  /// Corrects the heading of the moving filter with its velocity over ground, when it is fast
-  /// enough.
+  /// Corrects the heading of the moving filter with its velocity over ground,
+  /// when it is fast enough.
   void align_with_motion();
   /// Initialises the stationary filter with the moving one, conditioned on zero velocity.
   void init_stationary();

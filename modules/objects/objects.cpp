@@ -91,8 +91,8 @@ void ObjectTracker::match_by_overlap(const TrackView& view, const DetectionFrame
                               : 0.0;
     }
   }
-  // The pair with the largest overlap is matched first. Among equal ones the order of the boxes
-  // decides.
+  // The pair with the largest overlap is matched first.
+  // Among equal ones the order of the boxes decides.
   while (true) {
     double best = objects_.least_overlap_ratio;
     std::size_t best_detection = kMaxDetections, best_slot = kNone;

@@ -1,6 +1,6 @@
 /// Tracks objects on the road over frames and reports their position, heading, size and velocity in
-/// 3D, each with its standard deviation. This is an algorithm without a clock and without input or
-/// output.
+/// 3D, each with its standard deviation. This is an algorithm without a
+/// clock and without input or output.
 ///
 /// Frames:
 ///   ground of the newest image: x forward, y left, z up, on the road under the camera. Positions

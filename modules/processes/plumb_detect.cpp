@@ -1,5 +1,5 @@
-/// plumb-detect: CAMERA -> boxes of vehicles and people, by a network of the user's choice ->
-/// DETECTIONS
+/// plumb-detect: CAMERA -> boxes of vehicles and people,
+/// by a network of the user's choice -> DETECTIONS
 #include <optional>
 
 #include "modules/chain/plumb_config.hpp"

@@ -105,8 +105,8 @@ TEST_F(PlumbCamera, PlaysAKittiFolderAtItsPaceTimesSpeed) {
     const cv::Mat sent = KittiFolder::image(100 + static_cast<int>(i));
     EXPECT_EQ(cv::norm(sent, run.images[i].image, cv::NORM_INF), 0.0);
   }
-  // There are 24 steps of 50 ms. Under load a frame may be late, but never early, and the player
-  // catches up.
+  // There are 24 steps of 50 ms. Under load a frame may be late,
+  // but never early, and the player catches up.
   const auto span_us = run.images.back().arrival_us - run.images.front().arrival_us;
   EXPECT_GT(span_us, 1'100'000);
   EXPECT_LT(span_us, 2'200'000);

@@ -154,8 +154,8 @@ TEST(Rectify, PixelsOutsideTheCapturedImageAreNamedUnseen) {
 }
 
 TEST(Rectify, BeyondTheFoldOfTheLensPolynomialNothingIsSeen) {
-  // r (1 - 0.5 r^2) has its maximum at r = 0.816; rays beyond it project into the image a second
-  // time.
+  // r (1 - 0.5 r^2) has its maximum at r = 0.816;
+  // rays beyond it project into the image a second time.
   const Lens lens{LensModel::kPlumbBob, -0.5, 0.0, 0.0, 0.0, 0.0, 0.0};
   const PinholePx published{200.0, 200.0, 320.0, 180.0};
   const Rectifier rectifier(kWidth, kHeight, kCaptured, lens, published);

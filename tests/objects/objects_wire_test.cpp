@@ -253,8 +253,8 @@ TEST_F(ObjectsNodeTest, LateDetectionsBelongToTheImageTheyWereMadeOf) {
   EXPECT_EQ(published_[0].seq, 4);
   ASSERT_EQ(node_.take_detections(sound(9)), nullptr);
   ASSERT_EQ(published_.size(), 2u);
-  // The cars kept their places in the image while the camera drove 5 m in 0.5 s, so they are as
-  // fast.
+  // The cars kept their places in the image while the camera drove 5 m in 0.5 s,
+  // so they are as fast.
   EXPECT_FALSE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0]));
   EXPECT_GT(published_[1].objects[0].velocity_ground_m_s[0], 5.0);
 }

@@ -18,8 +18,8 @@ namespace plumb::test {
 
 class ChildProcess {
  public:
-  /// Starts `arguments[0]`, which is a program in bin/ or a path. stdout and stderr are collected
-  /// together.
+  /// Starts `arguments[0]`, which is a program in bin/ or a path.
+  /// stdout and stderr are collected together.
   explicit ChildProcess(std::vector<std::string> arguments) {
     if (arguments[0].find('/') == std::string::npos && arguments[0].rfind("plumb-", 0) == 0)
       arguments[0] = std::string(PLUMB_BIN_DIR) + "/" + arguments[0];

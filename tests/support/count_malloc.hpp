@@ -1,6 +1,6 @@
 /// Counts every malloc of this program, including those of Eigen and operator new. Include this in
-/// exactly one file of a test program. Under a sanitizer, which replaces malloc, nothing is
-/// counted.
+/// exactly one file of a test program. Under a sanitizer,
+/// which replaces malloc, nothing is counted.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-/// Renders a street of textured planes with exact truth: the road, walls at the kerbs and a far
-/// backdrop.
+/// Renders a street of textured planes with exact truth:
+/// the road, walls at the kerbs and a far backdrop.
 ///
 /// Frames:
 ///   world: cam of a level camera at the start of the street; x right, y down, z forward.
@@ -61,8 +61,8 @@ class Scene {
     return render_rows([&T_world_cam](int) { return T_world_cam; }, noise_std_grey, seed, gain);
   }
 
-  /// Renders an image with the camera's rolling shutter while the camera moves by `step` per
-  /// `image_s`.
+  /// Renders an image with the camera's rolling shutter while the
+  /// camera moves by `step` per `image_s`.
   [[nodiscard]] RenderedImage render_rolling(const Se3& T_world_cam, const Se3& step,
                                              double image_s) const {
     const auto pose_of_row = [&](int v) {

@@ -1,5 +1,5 @@
-// Tests the nodes of vo and ground: calibration rules, refused messages, and the pairing of motions
-// with images.
+// Tests the nodes of vo and ground: calibration rules,
+// refused messages, and the pairing of motions with images.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -1,5 +1,5 @@
-/// Reads the LCM log of one plumb-camera session and checks it against the expectations of the
-/// session.
+/// Reads the LCM log of one plumb-camera session and checks it against
+/// the expectations of the session.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cinttypes>

@@ -39,8 +39,8 @@ Se3 T_cam_imu() {
 
 TEST(Oxts, DrivingEastIsDrivingAhead) {
   const test::TempFolder folder;
-  // At the equator a degree of longitude is as long as one of latitude, and the Mercator scale
-  // is 1.
+  // At the equator a degree of longitude is as long as one of latitude,
+  // and the Mercator scale is 1.
   folder.write("data/0000000000.txt", oxts_row(0.0, 8.0, 100.0, 0, 0, 0));
   folder.write("data/0000000001.txt", oxts_row(0.0, 8.0 + 10.0 / kMetresPerDegree, 101.0, 0, 0, 0));
   const auto poses = read_oxts_poses(folder / "data", images(2), T_cam_imu());

@@ -23,8 +23,8 @@ TEST(PlaneFile, ReadsTheLidarFormatAndPassesOverFurtherColumns) {
 }
 
 TEST(PlaneFile, CallsNoseDownPositivePitch) {
-  // WHEN the optical axis points 2 degrees below the horizon, the road's downward normal leans
-  // forward.
+  // WHEN the optical axis points 2 degrees below the horizon,
+  // the road's downward normal leans forward.
   const double angle_rad = 0.0349;
   const TruePlane plane{{0.0, std::cos(angle_rad), std::sin(angle_rad)}, 1.65};
   EXPECT_NEAR(plane.pitch_rad(), angle_rad, 1e-12);
