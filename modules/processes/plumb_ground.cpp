@@ -1,5 +1,5 @@
-/// plumb-ground: CAMERA, CAMERA_CALIBRATION,
-/// VO_MOTION, DETECTIONS -> GROUND_PLANE, EGO_MOTION, MOUNT
+/// plumb-ground: CAMERA, CAMERA_CALIBRATION, VO_MOTION, DETECTIONS
+///   -> GROUND_PLANE, EGO_MOTION, MOUNT
 #include <optional>
 
 #include "modules/chain/ground_algorithm.hpp"
