@@ -90,7 +90,7 @@ BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane, const Co
     }
     const double moved = (next - x).cwiseAbs().maxCoeff();
     x = next;
-    if (moved < kSettled) break;
+    if (moved < kConverged) break;
   }
   result.estimate.x = x;
   result.estimate.P = prior.P - K * S * K.transpose();
