@@ -1,13 +1,15 @@
-# One interface target carries every flag; targets opt in by linking it.
+# One interface target carries every flag. A target opts in by linking it.
 add_library(plumb_strict INTERFACE)
 target_compile_features(plumb_strict INTERFACE cxx_std_20)
 target_include_directories(plumb_strict INTERFACE ${PROJECT_SOURCE_DIR})
-# Left out: vptr, at which gcc 12 crashes inside lcm-cpp; null and alignment, whose checks at every reference make
-# sources with unrolled Eigen take minutes and 2 GB. A null pointer ends in AddressSanitizer's report all the same, and
-# Eigen asserts the alignment of what it vectorises.
+# Three checks are switched off. gcc 12 crashes with vptr inside lcm-cpp. The checks null and
+# alignment at every reference make the compilation of unrolled Eigen code take minutes and 2 GB;
+# AddressSanitizer reports null pointers as well, and Eigen asserts the alignment of what it
+# vectorises.
 set(sanitizers -fsanitize=address,undefined -fno-sanitize=vptr,null,alignment)
-# No errno and no trapping maths: both only keep loops from vectorising. Never -ffast-math: sums keep
-# their order, so the same input gives the same bits; contraction is off for the same reason.
+# errno and trapping maths only prevent loops from being vectorised. -ffast-math is never used: sums
+# keep their order, so that the same input gives the same bits. Contraction is off for the same
+# reason.
 target_compile_options(plumb_strict INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
   -fno-math-errno -fno-trapping-math -ffp-contract=off
@@ -20,12 +22,13 @@ if(PLUMB_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_compile_options(-march=${PLUMB_ARCH})
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
-set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")  # lines for stack traces; -g adds a third to the build
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")  # line numbers only: -g makes the build a third longer
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# plumb_program(name sources... LIBS libs...): a program in bin/, named as given, installed.
-# A main source starts things; CLI11 in it takes twice as long to optimise for speed.
+# plumb_program(name sources... LIBS libs...) adds a program to bin/ and to the installation. Its
+# main source is compiled with -O1, because optimising CLI11 for speed would double the compile
+# time.
 function(plumb_program name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})

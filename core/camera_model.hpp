@@ -1,8 +1,11 @@
-/// Pinhole camera with the radial terms that rectification left behind.
+/// A pinhole camera with the radial distortion that rectification left in its images.
 ///
-/// Frames  cam: x right, y down, z forward.  img: u right, v down, (0,0) is the centre of the upper
-/// left pixel. Model   r2 = x^2 + y^2 with (x, y) = (X/Z, Y/Z), s = 1 + k1 r2 + k2 r2^2;
-/// u = fx x s + cx,  v = fy y s + cy.  Rows from the top down.
+/// Frames:
+///   cam: x right, y down, z forward, origin at the optical centre.
+///   img: u right, v down; (0,0) is the centre of the upper left pixel.
+/// Model:
+///   With (x, y) = (X/Z, Y/Z), r2 = x^2 + y^2 and s = 1 + k1 r2 + k2 r2^2:
+///   u = fx x s + cx,  v = fy y s + cy.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,12 +20,12 @@ struct CameraModel {
   double fy_px = 0.0;
   double cx_px = 0.0;
   double cy_px = 0.0;
-  double residual_k1 = 0.0;      ///< [-] radial term left in "rectified" images, of r^2
-  double residual_k2 = 0.0;      ///< [-] the same, of r^4
-  double camera_height_m = 0.0;  ///< optical centre above the road; 0 when the rig does not say
-  double readout_s = 0.0;        ///< rolling shutter, first row to last; 0: all rows at once
+  double residual_k1 = 0.0;      ///< [-] coefficient k1, of r^2
+  double residual_k2 = 0.0;      ///< [-] coefficient k2, of r^4
+  double camera_height_m = 0.0;  ///< optical centre above the road; 0 when it is not known
+  double readout_s = 0.0;        ///< rolling shutter, first row to last; 0 for a global shutter
 
-  /// When a row is exposed, after the image's own time: that of the middle row.
+  /// Time of a row's exposure relative to the image's time stamp, which is that of the middle row.
   [[nodiscard]] double row_time_s(double v_px) const {
     return readout_s * ((v_px + 0.5) / height_px - 0.5);
   }
@@ -38,8 +41,8 @@ struct CameraModel {
     return {fx_px * xy.x() * s + cx_px, fy_px * xy.y() * s + cy_px};
   }
 
-  /// Undistorted normalised coordinates (X/Z, Y/Z) of a pixel; fixed-point inverse, 1e-9 where the
-  /// radial terms move the pixel by less than 5 %.
+  /// Undistorted normalised coordinates (X/Z, Y/Z) of a pixel. The fixed-point iteration is
+  /// accurate to 1e-9 where the radial terms move the pixel by less than 5 %.
   [[nodiscard]] Eigen::Vector2d to_normalized(const Eigen::Vector2d& px) const {
     const Eigen::Vector2d distorted((px.x() - cx_px) / fx_px, (px.y() - cy_px) / fy_px);
     Eigen::Vector2d xy = distorted;
@@ -47,7 +50,7 @@ struct CameraModel {
     return xy;
   }
 
-  /// Ray with z = 1 through a pixel.
+  /// The ray through a pixel, scaled to z = 1.
   [[nodiscard]] Eigen::Vector3d unproject(const Eigen::Vector2d& px) const {
     return to_normalized(px).homogeneous();
   }
@@ -59,7 +62,7 @@ struct CameraModel {
            2.0 * (residual_k1 + 2.0 * residual_k2 * r2) * xy * xy.transpose();
   }
 
-  /// Distorted over undistorted radius.
+  /// Ratio s of the distorted to the undistorted radius.
   [[nodiscard]] double radial(double r2) const {
     return 1.0 + r2 * (residual_k1 + r2 * residual_k2);
   }

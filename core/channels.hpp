@@ -1,4 +1,5 @@
-/// Every LCM channel of the system, in data-flow order. The only place a channel name is written.
+/// Every LCM channel of the system, in the order of the data flow.
+/// No other file spells a channel's name.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +8,9 @@ namespace plumb {
 
 struct Channel {
   const char* name;
-  const char* publisher;  ///< the one process allowed to publish it
-  double rate_hz;         ///< nominal
-  std::int64_t stale_us;  ///< older than this at the reader is treated as absent
+  const char* publisher;  ///< the only process that may publish on it
+  double rate_hz;         ///< nominal rate
+  std::int64_t stale_us;  ///< a reader treats a message older than this as absent
 };
 
 inline constexpr Channel kCamera{"CAMERA", "camera", 10.0, 300'000};

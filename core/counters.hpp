@@ -1,19 +1,19 @@
-/// What a process counts about its messages, and the order of a numbered stream.
+/// The message counters of a process, and a detector of losses in a numbered stream.
 #pragma once
 
 #include <cstdint>
 
 namespace plumb {
 
-/// One per process; published in process_health_t.
+/// Each process has one set of counters and publishes it in process_health_t.
 struct Counters {
   std::int64_t num_received = 0;
-  std::int64_t num_rejected = 0;  ///< broke their contract
-  std::int64_t num_dropped = 0;   ///< missing by sequence number
-  std::int64_t num_late = 0;      ///< done later than the channel's stale time after arrival
+  std::int64_t num_rejected = 0;  ///< messages that broke their contract
+  std::int64_t num_dropped = 0;   ///< messages missing by sequence number
+  std::int64_t num_late = 0;      ///< messages processed later than the channel's stale time
   std::int64_t num_published = 0;
-  std::int64_t num_unsent = 0;      ///< did not fit, or refused by the socket
-  const char* last_rejection = "";  ///< why, of the newest rejected message
+  std::int64_t num_unsent = 0;      ///< messages that did not fit or that the socket refused
+  const char* last_rejection = "";  ///< reason for the newest rejection
 
   void reject(const char* why) {
     ++num_rejected;
@@ -22,21 +22,21 @@ struct Counters {
 };
 
 enum class SeqStep : std::uint8_t {
-  kFirst,    ///< nothing came before
-  kNext,     ///< +1
-  kGap,      ///< some are missing
-  kRepeat,   ///< the same number again
-  kRestart,  ///< the source began anew: backwards, or too far ahead to be a loss
+  kFirst,    ///< no number came before
+  kNext,     ///< the number grew by one
+  kGap,      ///< numbers are missing
+  kRepeat,   ///< the number came before
+  kRestart,  ///< the source restarted: the number went back, or too far ahead for a loss
 };
 
-/// Counts what a stream lost, by the sequence numbers of what arrived.
+/// Counts the messages that a stream lost, by the sequence numbers of those that arrived.
 class LossCounter {
  public:
-  /// A jump beyond this is a restarted source, not a loss.
+  /// A longer jump means that the source restarted.
   static constexpr std::uint64_t kMaxGap = 100'000;
 
   SeqStep take(std::int64_t seq) {
-    // Unsigned difference: defined for every pair of numbers, hostile ones included.
+    // The unsigned difference is defined for every pair of numbers, also for hostile ones.
     const std::uint64_t ahead = static_cast<std::uint64_t>(seq) - static_cast<std::uint64_t>(last_);
     const bool first = !started_;
     started_ = true;

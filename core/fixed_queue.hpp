@@ -1,4 +1,7 @@
-/// First in, first out; up to N values in place. A full queue lets the oldest go.
+/// A first-in-first-out queue of up to N values. A full queue drops its oldest value.
+///
+/// Memory:
+///   The values are stored in place; nothing is allocated.
 #pragma once
 
 #include <array>
@@ -9,7 +12,7 @@ namespace plumb {
 template <typename T, std::size_t N>
 class FixedQueue {
  public:
-  /// False when the oldest value had to make room.
+  /// Appends `value`. Returns false when the queue was full and dropped its oldest value.
   [[nodiscard]] bool push(const T& value) {
     const bool fits = size_ < N;
     if (!fits) drop_front();
@@ -17,7 +20,7 @@ class FixedQueue {
     ++size_;
     return fits;
   }
-  /// @pre not empty, for the three below
+  /// @pre not empty; the same holds for front() and back()
   void drop_front() {
     first_ = (first_ + 1) % N;
     --size_;

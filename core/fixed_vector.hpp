@@ -5,11 +5,14 @@
 
 namespace plumb {
 
-/// Up to N values stored in place. Never allocates; a full vector refuses, it does not throw.
+/// A vector of up to N values. A full vector refuses further values and does not throw.
+///
+/// Memory:
+///   The values are stored in place; nothing is allocated.
 template <typename T, std::size_t N>
 class FixedVector {
  public:
-  /// Appends `value`. Returns false, leaving the vector unchanged, when N values are held.
+  /// Appends `value`. Returns false and leaves the vector unchanged when it already has N values.
   [[nodiscard]] bool push_back(const T& value) {
     if (size_ == N) return false;
     items_[size_++] = value;

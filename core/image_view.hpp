@@ -1,5 +1,8 @@
-/// A borrowed 8-bit grey image. Rows run top to bottom; (0,0) is the centre of the upper left
-/// pixel.
+/// A view of an 8-bit grey image that somebody else owns.
+///
+/// Frames:
+///   img: u right, v down; (0,0) is the centre of the upper left pixel.
+///   Rows run from top to bottom.
 #pragma once
 
 #include <cstddef>

@@ -1,11 +1,11 @@
-/// What is wrong with a file that the user gave. Programs print it and exit with 2.
+/// The exception for an input that the user has to correct. Programs print it and exit with 2.
 #pragma once
 
 #include <stdexcept>
 
 namespace plumb {
 
-/// One clear sentence that names file, line and field where there are any.
+/// what() is one sentence that names the file, the line and the field where they are known.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,3 +1,4 @@
+/// Numbers and conversions that several modules share.
 #pragma once
 
 #include <limits>
@@ -10,7 +11,7 @@ inline constexpr double kInf = std::numeric_limits<double>::infinity();
 /// One degree [rad].
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Radians to degrees.
+/// Converts radians to degrees.
 constexpr double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
 constexpr double square(double x) { return x * x; }

@@ -1,6 +1,11 @@
-/// Poses and matrices <-> the plain arrays of messages.
+/// Poses, covariances and vectors <-> the plain arrays of messages.
 ///
-/// R -> q -> R is not exact to the bit, so live processes and the replay both pass through these functions.
+/// The round trip R -> q -> R changes the last bits. Live processes and the replay both pass
+/// through these functions, so that their results are equal.
+///
+/// Errors:
+///   from_wire() returns null when the values are valid, and else the reason as a string literal.
+///   The result is then unspecified.
 #pragma once
 
 #include <cmath>
@@ -9,7 +14,7 @@
 
 namespace plumb {
 
-/// Quaternion w, x, y, z with w >= 0, and translation.
+/// Writes a unit quaternion (w, x, y, z) with w >= 0, and the translation.
 inline void to_wire(const Se3& T_a_b, double (&q_a_b)[4], double (&t_a_b)[3]) {
   Eigen::Quaterniond q(T_a_b.R);
   q.normalize();
@@ -21,17 +26,18 @@ inline void to_wire(const Se3& T_a_b, double (&q_a_b)[4], double (&t_a_b)[3]) {
   for (int i = 0; i < 3; ++i) t_a_b[i] = T_a_b.t[i];
 }
 
-/// False when a number is not finite or the quaternion is not of unit length.
-[[nodiscard]] inline bool from_wire(const double (&q_a_b)[4], const double (&t_a_b)[3],
-                                    Se3* T_a_b) {
+/// Reads a pose. The numbers must be finite and the quaternion of unit length.
+[[nodiscard]] inline const char* from_wire(const double (&q_a_b)[4], const double (&t_a_b)[3],
+                                           Se3* T_a_b) {
   constexpr double kUnitTolerance = 1e-6;
   const Eigen::Quaterniond q(q_a_b[0], q_a_b[1], q_a_b[2], q_a_b[3]);
   const Eigen::Vector3d t(t_a_b[0], t_a_b[1], t_a_b[2]);
-  // Written so that NaN fails.
-  if (!(std::abs(q.squaredNorm() - 1.0) <= kUnitTolerance) || !t.allFinite()) return false;
+  // The comparison is negated so that NaN fails it.
+  if (!(std::abs(q.squaredNorm() - 1.0) <= kUnitTolerance)) return "a quaternion is not a unit one";
+  if (!t.allFinite()) return "a translation is not finite";
   T_a_b->R = q.toRotationMatrix();
   T_a_b->t = t;
-  return true;
+  return nullptr;
 }
 
 template <int kSize>
@@ -40,13 +46,14 @@ void to_wire(const Eigen::Matrix<double, kSize, kSize>& matrix, double (&out)[kS
     for (int col = 0; col < kSize; ++col) out[row][col] = matrix(row, col);
 }
 
-/// False when an entry is not finite or a variance is negative.
+/// Reads a covariance. Its entries must be finite and its variances not negative.
 template <int kSize>
-[[nodiscard]] bool from_wire(const double (&in)[kSize][kSize],
-                             Eigen::Matrix<double, kSize, kSize>* matrix) {
+[[nodiscard]] const char* from_wire(const double (&in)[kSize][kSize],
+                                    Eigen::Matrix<double, kSize, kSize>* matrix) {
   for (int row = 0; row < kSize; ++row)
     for (int col = 0; col < kSize; ++col) (*matrix)(row, col) = in[row][col];
-  return matrix->allFinite() && matrix->diagonal().minCoeff() >= 0.0;
+  if (!matrix->allFinite()) return "a covariance is not finite";
+  return matrix->diagonal().minCoeff() >= 0.0 ? nullptr : "a variance is negative";
 }
 
 template <int kSize>

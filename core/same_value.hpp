@@ -1,10 +1,11 @@
+/// Compares enumerators with the constants of messages, for the static_asserts of the wires.
 #pragma once
 
 #include <cstdint>
 
 namespace plumb {
 
-/// Whether an enumerator has the number of a message's constant; for the static_asserts of the wires.
+/// True when the enumerator `ours` has the number of the message constant `theirs`.
 template <typename Ours>
 constexpr bool same(Ours ours, std::int8_t theirs) {
   return static_cast<std::int8_t>(ours) == theirs;

@@ -1,4 +1,4 @@
-/// How a pure library lets its caller measure it without owning a clock.
+/// The interface by which a library without a clock lets its caller time its stages.
 #pragma once
 
 namespace plumb {
@@ -6,14 +6,14 @@ namespace plumb {
 class StageProbe {
  public:
   virtual ~StageProbe() = default;
-  /// The stage `name` (a string literal) has just ended; it began at the previous mark or at
-  /// `begin`.
+  /// Ends the stage `name`, which began at the previous mark() or at begin().
+  /// `name` is a string literal.
   virtual void mark(const char* name) = 0;
-  /// A frame begins.
+  /// Begins a frame.
   virtual void begin() = 0;
 };
 
-/// Measures nothing.
+/// A probe that measures nothing.
 class NullProbe final : public StageProbe {
  public:
   void mark(const char* /*name*/) override {}

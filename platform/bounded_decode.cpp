@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::int32_t kMaxStages = 16;  // process_health_t.num_stages
 
-// Both lists begin: fingerprint, utime, seq, count.
-bool count_holds(std::span<const std::uint8_t> bytes, std::int32_t most) {
+// Both lists begin with fingerprint, utime, seq and count.
+bool count_is_valid(std::span<const std::uint8_t> bytes, std::int32_t most) {
   WireCursor cursor(bytes);
   cursor.skip(24);
   const std::int32_t count = cursor.i32();
@@ -17,15 +17,15 @@ bool count_holds(std::span<const std::uint8_t> bytes, std::int32_t most) {
 
 }  // namespace
 
-bool lengths_hold(std::span<const std::uint8_t> bytes, const detections_t* /*type*/) {
-  return count_holds(bytes, detections_t::MAX_DETECTIONS);
+bool lengths_are_valid(std::span<const std::uint8_t> bytes, const detections_t* /*type*/) {
+  return count_is_valid(bytes, detections_t::MAX_DETECTIONS);
 }
 
-bool lengths_hold(std::span<const std::uint8_t> bytes, const objects_t* /*type*/) {
-  return count_holds(bytes, objects_t::MAX_OBJECTS);
+bool lengths_are_valid(std::span<const std::uint8_t> bytes, const objects_t* /*type*/) {
+  return count_is_valid(bytes, objects_t::MAX_OBJECTS);
 }
 
-bool lengths_hold(std::span<const std::uint8_t> bytes, const process_health_t* /*type*/) {
+bool lengths_are_valid(std::span<const std::uint8_t> bytes, const process_health_t* /*type*/) {
   WireCursor cursor(bytes);
   cursor.skip(16);
   (void)cursor.text();

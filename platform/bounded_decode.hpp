@@ -1,9 +1,15 @@
-/// Decoding of bytes nobody has checked: false for anything that is not exactly one sound message.
+/// Decodes bytes from an untrusted source.
 ///
-/// Messages of fixed size cannot make the generated decoder allocate or read beyond the bytes. A
-/// message with strings or variable arrays can (a corrupt length makes it throw, or ask for
-/// gigabytes), so each one has its lengths walked first. A new variable message does not compile
-/// until it has its own overload.
+/// A message of fixed size cannot make the generated decoder allocate or read beyond the bytes. A
+/// message with strings or variable arrays can: a corrupt length makes the decoder throw or request
+/// gigabytes. Therefore the lengths in such a message are checked before it is decoded. A new
+/// message of variable size does not compile until it has its own overload of lengths_are_valid().
+///
+/// Errors:
+///   decode_bounded() returns false for anything but exactly one message. It never throws because
+///   of what the bytes contain.
+/// Memory:
+///   Fixed-size messages allocate nothing. Others allocate what their checked lengths require.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +23,7 @@
 
 namespace plumb {
 
-/// Big-endian cursor over a message. Reading beyond the end yields 0 and clears ok().
+/// A big-endian cursor over a message. Reading beyond the end yields 0 and clears ok().
 class WireCursor {
  public:
   explicit WireCursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -26,7 +32,7 @@ class WireCursor {
   [[nodiscard]] std::int32_t i32() {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(big_endian(4)));
   }
-  /// The next `count` bytes; empty, and ok() false, when they are not all there.
+  /// Takes the next `count` bytes. When fewer are left, the result is empty and ok() is cleared.
   [[nodiscard]] std::span<const std::uint8_t> take(std::int64_t count) {
     if (!ok_ || count < 0 || count > static_cast<std::int64_t>(bytes_.size() - position_)) {
       ok_ = false;
@@ -37,7 +43,7 @@ class WireCursor {
     return part;
   }
   void skip(std::int64_t count) { (void)take(count); }
-  /// Walks over an LCM string: i32 length that counts the closing zero, then the bytes.
+  /// Takes an LCM string: an i32 length that includes the terminating zero, then the bytes.
   [[nodiscard]] std::span<const std::uint8_t> text() {
     const std::int32_t length = i32();
     const auto part = take(length);
@@ -61,20 +67,21 @@ class WireCursor {
   bool ok_ = true;
 };
 
-[[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> bytes, const detections_t*);
-[[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> bytes, const objects_t*);
-[[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> bytes, const process_health_t*);
+/// True when every length in `bytes` is within the limits of the message and of `bytes`.
+[[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> bytes, const detections_t*);
+[[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> bytes, const objects_t*);
+[[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> bytes, const process_health_t*);
 template <typename Message>
 requires std::is_trivially_copyable_v<Message>
-[[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> /*bytes*/, const Message*) {
+[[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> /*bytes*/, const Message*) {
   return true;
 }
 
-/// Decodes `bytes` into `message`. False, with `message` in an unspecified state, when they are not
-/// exactly one message of this type. Never throws for what the bytes say.
+/// Decodes `bytes` into `message`. Returns false and leaves `message` unspecified when the bytes
+/// are not exactly one message of this type.
 template <typename Message>
 [[nodiscard]] bool decode_bounded(std::span<const std::uint8_t> bytes, Message* message) {
-  if (bytes.size() > 0x7FFFFFFFU || !lengths_hold(bytes, message)) return false;
+  if (bytes.size() > 0x7FFFFFFFU || !lengths_are_valid(bytes, message)) return false;
   const int size = static_cast<int>(bytes.size());
   return message->decode(bytes.data(), 0, size) == size;
 }

@@ -15,7 +15,7 @@ namespace plumb {
 namespace {
 
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
-constexpr int kMaxDescriptors = 1024;  // liblcm itself uses select()
+constexpr int kMaxDescriptors = 1024;  // liblcm uses select(), which takes no higher ones
 
 std::string resolve_url(const std::string& asked) {
   const char* preset = std::getenv("LCM_DEFAULT_URL");
@@ -34,8 +34,8 @@ int port_of(const std::string& url) {
   return colon == std::string::npos ? 7667 : std::atoi(url.c_str() + colon + 1);
 }
 
-// liblcm keeps its receiving socket to itself (lcm_get_fileno gives a pipe), so look for it by its
-// port.
+// liblcm does not expose its receiving socket (lcm_get_fileno returns a pipe), so the socket is
+// found by its port.
 std::vector<int> sockets_bound_to(int port) {
   std::vector<int> found;
   for (int fd = 0; fd < kMaxDescriptors; ++fd) {
@@ -76,7 +76,8 @@ void Bus::grow_receive_buffer() {
     socklen_t bytes = sizeof booked;
     if (::getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &booked, &bytes) != 0) continue;
     if (booked / 2 < kReceiveBufferBytes) {
-      // Past net.core.rmem_max; only an administrator may, and nobody is worse off for the attempt.
+      // This exceeds net.core.rmem_max, which only an administrator may do. A failed attempt
+      // changes nothing.
       const int wanted = kReceiveBufferBytes;
       (void)::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted);
       bytes = sizeof booked;
@@ -86,8 +87,8 @@ void Bus::grow_receive_buffer() {
   }
   if (receive_buffer_bytes_ > 0 && receive_buffer_bytes_ < kReceiveBufferBytes) {
     log_line(
-        "the kernel granted a receive buffer of %d bytes instead of %d, images may be lost: "
-        "sysctl -w net.core.rmem_max=%d",
+        "the kernel granted a receive buffer of %d bytes instead of %d; images may be lost; "
+        "to grant it run: sysctl -w net.core.rmem_max=%d",
         receive_buffer_bytes_, kReceiveBufferBytes, kReceiveBufferBytes);
   }
 }
@@ -108,13 +109,13 @@ RawSubscriber::~RawSubscriber() {
   list.erase(std::find(list.begin(), list.end(), this));
 }
 
-// Called from C: nothing may be thrown beyond here.
+// liblcm calls this from C, so no exception may leave it.
 void RawSubscriber::on_message(const lcm_recv_buf_t* raw, const char* /*channel*/, void* self) {
   auto& subscriber = *static_cast<RawSubscriber*>(self);
   try {
     subscriber.dispatch(*raw);
   } catch (const std::exception& error) {
-    subscriber.bus_.counters().reject("threw while handled");
+    subscriber.bus_.counters().reject("its handler threw an exception");
     log_limited("%s: %s", subscriber.channel_.name, error.what());
   }
 }
@@ -131,8 +132,9 @@ void RawSubscriber::dispatch(const lcm_recv_buf_t& raw) {
   if (channel_.stale_us > 0 && waited_us(raw) > channel_.stale_us) ++counters.num_late;
 }
 
-// Between the socket and now. liblcm stamps arrival with the calendar clock, which may step, and does not renew the
-// stamp of a buffer that it uses again, so its word counts only as far back as this thread has been busy.
+// Time between the arrival at the socket and now. liblcm stamps the arrival with the calendar
+// clock, which may step, and does not renew the stamp of a buffer that it reuses. The stamp is
+// therefore trusted only as far back as this thread has been busy.
 std::int64_t RawSubscriber::waited_us(const lcm_recv_buf_t& raw) const {
   return std::clamp<std::int64_t>(realtime_us() - raw.recv_utime, 0,
                                   monotonic_us() - bus_.busy_since_us_);

@@ -1,12 +1,19 @@
-/// LCM endpoints that own their buffers, so that the loop itself never allocates.
+/// An LCM connection and typed endpoints that own their buffers.
 ///
-/// Memory   a Subscriber decodes into a member, a Publisher encodes into storage made at
-/// construction. liblcm's
-///          own receive thread does allocate: two blocks for every message above 65,499 bytes (each
-///          camera image), freed after dispatch. The no-allocation promise covers our libraries and
-///          our loop, not liblcm.
-/// Order    every message is handled, in the order of arrival; a queue that overflows shows as a
-/// gap in seq.
+/// Threads:
+///   All classes belong to the thread that calls Bus::handle(); handlers run in it. liblcm receives
+///   in a thread of its own.
+/// Memory:
+///   A Subscriber decodes into a member, and a Publisher encodes into storage that it allocated at
+///   construction. liblcm's receive thread does allocate: two blocks for every message above 65,499
+///   bytes (each camera image), which it frees after dispatch. Our promise of no allocation covers
+///   our libraries and our loop, not liblcm.
+/// Order:
+///   Messages are handled in the order of their arrival.
+///   A queue that overflows shows as a gap in seq.
+/// Errors:
+///   Constructors throw BusError when the network cannot be joined. Later failures are counted in
+///   Counters, and an exception that a handler throws is logged and counted as a rejection.
 #pragma once
 
 #include <lcm/lcm.h>
@@ -25,7 +32,7 @@
 
 namespace plumb {
 
-/// The LCM network cannot be joined. Programs print it and stop.
+/// The exception for an LCM network that cannot be joined. Programs print it and stop.
 class BusError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -36,25 +43,28 @@ class RawSubscriber;
 /// One LCM connection.
 class Bus {
  public:
-  /// [bytes] asked of the kernel: 17 grey KITTI frames, a third of a second at five times real
-  /// time.
+  /// [bytes] Receive buffer that is requested from the kernel. It holds 17 grey KITTI frames, which
+  /// is a third of a second at five times real time.
   static constexpr int kReceiveBufferBytes = 8 << 20;
 
-  /// An empty `url` means $LCM_DEFAULT_URL, else multicast that stays on this machine. Throws
-  /// BusError.
+  /// Joins the network `url`. An empty `url` means $LCM_DEFAULT_URL or, when that is not set,
+  /// multicast that stays on this machine. `counters` outlives the bus. Throws BusError.
   Bus(const std::string& url, Counters* counters);
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// Readable when a message waits. Throws BusError when the network cannot be joined.
+  /// A descriptor that is readable while a message waits.
+  /// Throws BusError when the network cannot be joined.
   [[nodiscard]] int fileno();
-  /// Dispatches at most one message, waiting up to `timeout_ms` for it. True when there was one. The message cannot
-  /// have waited since before `busy_since_us` (EventLoop), which bounds what liblcm says about its arrival.
+  /// Dispatches at most one message and waits up to `timeout_ms` for it. Returns true when there
+  /// was one. `busy_since_us` (EventLoop::busy_since_us) is the earliest time at which the message
+  /// can have arrived; it bounds the arrival time that liblcm reports.
   bool handle(int timeout_ms = 0, std::int64_t busy_since_us = 0);
 
-  /// [bytes] of queued messages the kernel granted (half of SO_RCVBUF: the kernel books its own
-  /// overhead in the other half); 0 before the first subscription and where there is no socket.
+  /// [bytes] Receive buffer that the kernel granted: half of SO_RCVBUF, because the kernel accounts
+  /// its own overhead in the other half. It is 0 before the first
+  /// subscription and without a socket.
   [[nodiscard]] int receive_buffer_bytes() const { return receive_buffer_bytes_; }
   [[nodiscard]] const std::string& url() const { return url_; }
   [[nodiscard]] Counters& counters() { return *counters_; }
@@ -75,18 +85,18 @@ class Bus {
   std::vector<const RawSubscriber*> subscribers_;
 };
 
-/// Is silence on a channel worth a word in the health message?
+/// Whether the health message reports a channel on which nothing arrives (kPeriodic) or not.
 enum class Input : std::uint8_t { kPeriodic, kOccasional };
 
-/// Hands the bytes of every message of one channel to a handler.
+/// Passes the bytes of every message of one channel to a handler.
 class RawSubscriber {
  public:
   using Bytes = std::span<const std::uint8_t>;
-  /// Null when the message was taken, else why it was refused, as a literal.
+  /// Returns null when it accepts the message, and else the reason as a string literal.
   using Handler = std::function<const char*(Bytes)>;
   static constexpr int kQueueMessages = 64;
 
-  /// Throws BusError.
+  /// Subscribes to `channel`. `bus` and `channel` outlive the subscriber. Throws BusError.
   RawSubscriber(Bus& bus, const Channel& channel, Input input, Handler handler);
   ~RawSubscriber();
   RawSubscriber(const RawSubscriber&) = delete;
@@ -94,7 +104,7 @@ class RawSubscriber {
 
   [[nodiscard]] const Channel& channel() const { return channel_; }
   [[nodiscard]] Input input() const { return input_; }
-  /// [us] monotonic time of the newest message; 0 before the first.
+  /// [us] Monotonic time of the newest message; 0 before the first.
   [[nodiscard]] std::int64_t last_us() const { return last_us_; }
 
  private:
@@ -110,8 +120,8 @@ class RawSubscriber {
   std::int64_t last_us_ = 0;
 };
 
-/// Decodes every message of one channel into a member and hands it on. What does not decode is
-/// rejected.
+/// Decodes every message of one channel into a member and passes it to a handler. A message that
+/// does not decode is rejected.
 template <typename Message>
 class Subscriber {
  public:
@@ -131,23 +141,25 @@ class Subscriber {
   RawSubscriber raw_;
 };
 
-/// Encodes into owned storage and publishes the bytes; counts what was sent and what was not.
+/// Encodes messages into its own storage and publishes them. It counts the messages that were sent
+/// and those that were not.
 template <typename Message>
 class Publisher {
  public:
-  /// A message of fixed size needs no `max_bytes`; a variable one states its largest encoding.
+  /// `max_bytes` is the largest encoding. The default suits every message of fixed size.
   Publisher(Bus& bus, const Channel& channel, std::size_t max_bytes = sizeof(Message) + 8)
       : Publisher(bus, channel, max_bytes, &bus.counters()) {}
   Publisher(Bus& bus, const Channel& channel, std::size_t max_bytes, Counters* counters)
       : bus_(bus), channel_(channel), counters_(counters), buffer_(max_bytes) {}
 
-  /// The message as bytes, in this publisher's storage; empty when it does not fit.
+  /// Encodes the message into this publisher's storage. The result is empty when it does not fit,
+  /// and is valid until the next call.
   [[nodiscard]] std::span<const std::uint8_t> encode(const Message& message) {
     const int bytes = message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
     return {buffer_.data(), bytes < 0 ? 0U : static_cast<std::size_t>(bytes)};
   }
 
-  /// False when the message does not fit or the socket refuses it.
+  /// Publishes the message. Returns false when it does not fit or the socket refuses it.
   bool publish(const Message& message) {
     const auto bytes = encode(message);
     const bool sent = !bytes.empty() && lcm_publish(bus_.lcm(), channel_.name, bytes.data(),

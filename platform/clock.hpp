@@ -1,4 +1,7 @@
-/// The one place that asks the machine for the time. Estimators never do: their time is capture_us.
+/// The clocks of the machine. Only this file reads them; estimators use capture_us as their time.
+///
+/// Threads:
+///   Every function may be called from any thread.
 #pragma once
 
 #include <cstdint>
@@ -6,28 +9,29 @@
 
 namespace plumb {
 
-/// [us] CLOCK_MONOTONIC: steady, unrelated to the calendar.
+/// [us] CLOCK_MONOTONIC, which never steps and has no relation to the calendar.
 [[nodiscard]] inline std::int64_t monotonic_us() {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);
   return static_cast<std::int64_t>(t.tv_sec) * 1'000'000 + t.tv_nsec / 1'000;
 }
 
-/// [us] since 1970, CLOCK_REALTIME: for time stamps that people compare across machines; it may jump.
+/// [us] CLOCK_REALTIME since 1970, for time stamps that are compared across machines. It may step.
 [[nodiscard]] inline std::int64_t realtime_us() {
   timespec t{};
   clock_gettime(CLOCK_REALTIME, &t);
   return static_cast<std::int64_t>(t.tv_sec) * 1'000'000 + t.tv_nsec / 1'000;
 }
 
-/// [ns] CLOCK_MONOTONIC, for stage times.
+/// [ns] CLOCK_MONOTONIC, for the durations of stages.
 [[nodiscard]] inline std::int64_t monotonic_ns() {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);
   return static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
 }
 
-/// [us] processor time of this process so far, all threads: what work costs, however busy the machine is.
+/// [us] Processor time that all threads of this process have used.
+/// Other processes do not affect it.
 [[nodiscard]] inline std::int64_t process_cpu_us() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

@@ -1,3 +1,4 @@
+/// A ConfigReader that requires every key.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace plumb {
 
-/// Reads like ConfigReader, and wants every key to be there.
+/// Reads fields as ConfigReader does, and throws ConfigError for a key that the file lacks.
 class CompleteReader {
  public:
   CompleteReader(const std::string& path, ConfigFile* file)

@@ -45,7 +45,7 @@ struct Leaf {
   bool is_section;
 };
 
-// Every value, and every table without values, with its dotted key.
+// Lists every value, and every table without values, by its dotted key.
 std::vector<Leaf> leaves_of(const toml::table& root) {
   std::vector<Leaf> leaves;
   std::vector<std::pair<std::string, const toml::table*>> open = {{"", &root}};
@@ -98,7 +98,7 @@ ConfigFile ConfigFile::load(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
   if (!stream || !(text << stream.rdbuf())) {
-    // An empty file also fails the copy, and is a valid configuration.
+    // Copying an empty file also sets the fail bit, but an empty file is a valid configuration.
     if (!stream.is_open() || errno != 0)
       throw ConfigError("cannot read " + path + ": " + std::strerror(errno));
   }
@@ -194,9 +194,9 @@ void ConfigWriter::operator()(const char* key, const std::string& value,
 }
 
 std::string ConfigWriter::text() const {
-  return "# Every setting of every plumb-* program, with its default. A file may hold any part of "
-         "it;\n"
-         "# what it leaves out keeps the default. Written by: plumb-vo --print-config\n" +
+  return "# Every setting of every plumb-* program with its default value. A file may contain any "
+         "part of\n"
+         "# it; a missing key keeps its default. Written by: plumb-vo --print-config\n" +
          sections();
 }
 
@@ -250,7 +250,7 @@ void ConfigWriter::add(const std::string& key, const std::string& value, const s
   auto found = std::find_if(sections_.begin(), sections_.end(),
                             [&section](const auto& s) { return s.first == section; });
   if (found == sections_.end()) {
-    // Keys outside any section must come first in TOML.
+    // TOML requires that keys outside any section come first.
     found = sections_.insert(section.empty() ? sections_.begin() : sections_.end(), {section, ""});
   }
   std::string line = (dot == std::string::npos ? key : key.substr(dot + 1)) + " = " + value;

@@ -1,5 +1,11 @@
-/// Strict TOML configuration: every key is owned by exactly one visit(); what is wrong is refused,
-/// never repaired.
+/// Strict TOML configuration. Exactly one visit() owns each key,
+/// and a wrong value is refused, never repaired.
+///
+/// Errors:
+///   Every function that reads throws ConfigError. Its text names the file, the line, the key and
+///   the allowed range.
+/// Memory:
+///   A ConfigFile allocates; it is used before a process begins to serve.
 #pragma once
 
 #include <memory>
@@ -11,8 +17,7 @@
 
 namespace plumb {
 
-/// What is wrong with a configuration, with file, line, key and allowed range. Programs print it
-/// and exit with 2.
+/// The exception for a wrong configuration. Programs print it and exit with 2.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -21,24 +26,24 @@ class ConfigError : public std::runtime_error {
 /// A parsed TOML file and the keys that were read from it.
 class ConfigFile {
  public:
-  /// Reads and parses. Throws ConfigError ("cannot read F", "F:line:column: ...").
+  /// Reads and parses a file. Throws ConfigError ("cannot read F", "F:line:column: ...").
   static ConfigFile load(const std::string& path);
   ~ConfigFile();
   ConfigFile(ConfigFile&&) noexcept;
 
-  /// The value of a dotted key replaces `value` when the file has it. Throws ConfigError on the
-  /// wrong type or range.
+  /// Replaces `value` by the value of a dotted key when the file has that key. Throws ConfigError
+  /// on a wrong type or range.
   void read(const char* key, double& value, double low, double high);
   void read(const char* key, int& value, double low, double high);
   void read(const char* key, bool& value);
   void read(const char* key, std::string& value);
-  /// `value` must be one of `choices`.
+  /// Reads a text that must be one of `choices`.
   void read(const char* key, std::string& value, const std::vector<std::string>& choices);
 
   /// Whether the file has a dotted key.
   [[nodiscard]] bool has(const char* key) const;
 
-  /// Throws ConfigError for the first key that nobody read, with its line.
+  /// Throws ConfigError for the first key that no read() asked for.
   void refuse_unread() const;
 
  private:
@@ -47,8 +52,9 @@ class ConfigFile {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Field visitor: field(key, member, low, high, meaning) for numbers, field(key, member, meaning)
-/// for bool and text, field(key, member, choices, meaning) for a text out of a list.
+/// A field visitor that reads a ConfigFile. Its calls are field(key, member, low, high, meaning)
+/// for numbers, field(key, member, meaning) for bool and text, and field(key, member, choices,
+/// meaning) for a text out of a list.
 class ConfigReader {
  public:
   explicit ConfigReader(ConfigFile* file) : file_(file) {}
@@ -70,8 +76,8 @@ class ConfigReader {
   ConfigFile* file_;
 };
 
-/// Field visitor that writes every key with its value, range and meaning as TOML that ConfigReader
-/// accepts.
+/// A field visitor that writes every key with its value, range and meaning as TOML that
+/// ConfigReader accepts.
 class ConfigWriter {
  public:
   template <typename T, typename L, typename H>
@@ -89,12 +95,13 @@ class ConfigWriter {
   void operator()(const char* key, const std::string& value,
                   const std::vector<std::string>& choices, const char* meaning);
 
-  /// The whole text: one section per key prefix, in order of first appearance.
+  /// The whole text: a remark, then one section per key prefix in the order of first appearance.
   [[nodiscard]] std::string text() const;
-  /// The same without the remark at its head.
+  /// The text without the remark.
   [[nodiscard]] std::string sections() const;
 
-  /// Shortest text that reads back to the same number; `whole`: without exponent, and without ".0".
+  /// The shortest text that reads back to the same number. A `whole` number is written without an
+  /// exponent and without ".0".
   static std::string number(double value, bool whole);
   static std::string quoted(const std::string& text);
 
@@ -106,7 +113,8 @@ class ConfigWriter {
   std::vector<std::pair<std::string, std::string>> sections_;  ///< name, lines
 };
 
-/// TOML text of `config`, every key commented. config/default.toml is this text for the defaults.
+/// Writes `config` as TOML with a comment on every key.
+/// config/default.toml is this text for the default values.
 template <typename Config>
 [[nodiscard]] std::string render_config(const Config& config) {
   ConfigWriter writer;
@@ -114,7 +122,7 @@ template <typename Config>
   return writer.text();
 }
 
-/// Fills `config` from `path`; an empty path leaves the defaults. Throws ConfigError.
+/// Fills `config` from the file `path`. An empty path leaves the defaults. Throws ConfigError.
 template <typename Config>
 void load_config(const std::string& path, Config* config) {
   if (path.empty()) return;

@@ -37,13 +37,13 @@ sigset_t stop_signals() {
 
 }  // namespace
 
-void hold_stop_signals() {
+void block_stop_signals() {
   const sigset_t stops = stop_signals();
   pthread_sigmask(SIG_BLOCK, &stops, nullptr);
 }
 
 EventLoop::EventLoop() {
-  hold_stop_signals();
+  block_stop_signals();
   const sigset_t stops = stop_signals();
   const int fd = ::signalfd(-1, &stops, SFD_CLOEXEC | SFD_NONBLOCK);
   if (fd < 0) fail("signalfd");
@@ -82,7 +82,7 @@ EventLoop::TimerId EventLoop::every(std::int64_t period_us, Callback callback) {
 }
 
 void EventLoop::arm_at(TimerId timer, std::int64_t at_us) {
-  // Zero would disarm: the earliest moment is 1 us after boot.
+  // Zero would disarm the timer, so the earliest time is 1 us after boot.
   set_timer(timer, std::max<std::int64_t>(at_us, 1), 0);
 }
 
@@ -116,7 +116,7 @@ bool EventLoop::step(int timeout_ms) {
     if (polls_[i].revents == 0) continue;
     if (sources_[i].is_timer) {
       std::uint64_t expirations = 0;
-      // Disarmed between poll and here: nothing to read, nothing to do.
+      // A timer that was disarmed after poll() has nothing to read.
       if (::read(polls_[i].fd, &expirations, sizeof expirations) != sizeof expirations) continue;
     }
     sources_[i].callback();

@@ -1,8 +1,16 @@
-/// One thread that waits for descriptors, timers and the two stop signals.
+/// A loop that waits for descriptors, timers and the two stop signals.
 ///
-/// Order    everything that is ready is served once per round, so a flood on one source cannot
-/// starve a timer. Memory   sources are registered before run(); nothing is allocated while it
-/// runs.
+/// Threads:
+///   One thread owns the loop; every callback runs in it.
+///   No function may be called from another thread.
+/// Order:
+///   Each round serves every ready source once,
+///   so that a flood on one source cannot starve a timer.
+/// Memory:
+///   Sources are registered before run(). Nothing is allocated while it runs.
+/// Errors:
+///   Functions throw std::system_error when the system refuses a descriptor or a call. An exception
+///   that a callback throws leaves run() or step().
 #pragma once
 
 #include <poll.h>
@@ -13,39 +21,45 @@
 
 namespace plumb {
 
-/// Blocks SIGINT and SIGTERM for this thread and those it starts later: an EventLoop takes them, also
-/// those that came before it was made.
-void hold_stop_signals();
+/// Blocks SIGINT and SIGTERM for this thread and for the threads that it starts later. An EventLoop
+/// receives the signals, also those that arrived before its construction.
+void block_stop_signals();
 
 class EventLoop {
  public:
   using Callback = std::function<void()>;
   using TimerId = std::size_t;
 
-  /// Holds the stop signals. Throws std::system_error when the system has no descriptors left.
+  /// Blocks the stop signals and receives them. Throws std::system_error when the system has no
+  /// descriptors left.
   EventLoop();
   ~EventLoop();
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  /// `callback` runs whenever `fd` is readable (or has failed). The descriptor stays the caller's.
+  /// Runs `callback` whenever `fd` is readable or has failed. The caller keeps the descriptor and
+  /// closes it after the loop.
   void watch(int fd, Callback callback);
-  /// `callback` runs every `period_us`, without drift; periods that were missed run once.
+  /// Runs `callback` every `period_us` without drift.
+  /// It runs once for all periods that were missed.
   TimerId every(std::int64_t period_us, Callback callback);
-  /// A timer that rests until it is armed.
+  /// Creates a timer that is not armed.
   TimerId timer(Callback callback);
-  /// The timer fires once at `at_us` of monotonic_us(), at once when that has passed.
+  /// Makes the timer fire once at the time `at_us` of monotonic_us(),
+  /// or at once when that has passed.
   void arm_at(TimerId timer, std::int64_t at_us);
   void disarm(TimerId timer);
 
-  /// Serves until stop() or a stop signal.
+  /// Serves the sources until stop() or a stop signal.
   void run();
-  /// One round, waiting up to `timeout_ms` (-1: for ever). False when the loop is to end.
+  /// Serves one round after waiting up to `timeout_ms` for it (-1: for ever). Returns false when
+  /// the loop is to end.
   bool step(int timeout_ms);
   void stop() { stopped_ = true; }
-  /// [us] monotonic time since which something has been ready without pause: nothing served now has waited longer.
+  /// [us] Monotonic time since which the loop has not been idle. No source that is served now was
+  /// ready before that time.
   [[nodiscard]] std::int64_t busy_since_us() const { return busy_since_us_; }
-  /// SIGINT or SIGTERM, 0 when none came.
+  /// SIGINT or SIGTERM, or 0 when no stop signal arrived.
   [[nodiscard]] int stop_signal() const { return stop_signal_; }
 
  private:
@@ -57,7 +71,7 @@ class EventLoop {
   std::size_t add(int fd, bool is_timer, Callback callback);
   void set_timer(TimerId timer, std::int64_t at_us, std::int64_t period_us);
 
-  std::vector<pollfd> polls_;  ///< same index as sources_
+  std::vector<pollfd> polls_;  ///< indexed like sources_
   std::vector<Source> sources_;
   bool stopped_ = false;
   int stop_signal_ = 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kTroubleShown_us = 1'000'000;
 
-// Into room that is already there.
+// Copies without allocating.
 void assign(std::string* text, const char* value) {
   text->assign(value, std::min(std::char_traits<char>::length(value), Health::kMaxText));
 }
@@ -91,9 +91,9 @@ bool Health::judge_counters(std::int64_t now_us, const Counters& now) {
     assign(&trouble_, reason.data());
     trouble_until_us_ = now_us + kTroubleShown_us;
   };
-  // The gravest last: it is the one that stays.
+  // Each later reason replaces the earlier ones, so the most serious comes last.
   if (now.num_late > before_.num_late)
-    say("%lld messages done late%s", now.num_late - before_.num_late, "");
+    say("%lld messages processed late%s", now.num_late - before_.num_late, "");
   if (now.num_rejected > before_.num_rejected)
     say("%lld messages rejected: %s", now.num_rejected - before_.num_rejected, now.last_rejection);
   if (now.num_unsent > before_.num_unsent)

@@ -1,7 +1,8 @@
-/// The state of one process, and the process_health_t that tells it.
+/// The state of one process and the process_health_t that reports it.
 ///
-/// Memory   the message is built in place; its texts and stages keep the room they get at
-/// construction.
+/// Memory:
+///   The message is built in place. Its texts and stages keep the
+///   capacity that they get at construction.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +15,28 @@
 
 namespace plumb {
 
-/// Same numbers as process_health_t.state.
+/// The numbers are those of process_health_t.state.
 enum class HealthState : std::int8_t { kRunning = 0, kWaiting = 1, kDegraded = 2, kStopping = 3 };
 
 class Health {
  public:
-  /// [bytes] largest encoding: texts are cut to kMaxText.
+  /// [bytes] The largest encoding. Longer texts are cut to kMaxText.
   static constexpr std::size_t kMaxBytes = 4096;
   static constexpr std::size_t kMaxText = 160;
 
   explicit Health(const char* process);
 
-  /// What only the process itself knows ("no calibration yet"); holds until clear_condition().
+  /// Sets a state that only the process itself knows, such as "no calibration yet". It stays until
+  /// clear_condition().
   void set_condition(HealthState state, const char* reason);
   void clear_condition() { condition_ = HealthState::kRunning; }
 
-  /// The message now. Without a condition the process is degraded for a second after it rejected,
-  /// lost, missed a deadline or failed to send, and waiting while a periodic input is silent.
+  /// Builds the message. Without a condition the process is degraded for a second after it rejected
+  /// or lost a message, missed a deadline or failed to send, and it is waiting while no message
+  /// arrives on a periodic input.
   const process_health_t& report(std::int64_t now_us, const Counters& counters, const Bus& bus,
                                  const StageTimer& timer);
-  /// The last message: stopping.
+  /// Builds the last message, whose state is stopping.
   const process_health_t& report_stopping(std::int64_t now_us, const char* reason);
 
  private:

@@ -15,24 +15,25 @@ constexpr std::int64_t kQuiet_us = 1'000'000;
 struct Site {
   const char* format = nullptr;
   std::int64_t next_us = 0;
-  std::int64_t num_held_back = 0;
+  std::int64_t num_suppressed = 0;
 };
 
 const char* g_name = "plumb";
 std::array<Site, 32> g_sites;
 
-void print(const char* format, std::va_list arguments, std::int64_t num_held_back) {
+void print(const char* format, std::va_list arguments, std::int64_t num_suppressed) {
   std::array<char, 512> line{};
   std::vsnprintf(line.data(), line.size(), format, arguments);
-  if (num_held_back > 0) {
+  if (num_suppressed > 0) {
     std::fprintf(stderr, "%s: %s (%lld more like it)\n", g_name, line.data(),
-                 static_cast<long long>(num_held_back));
+                 static_cast<long long>(num_suppressed));
   } else {
     std::fprintf(stderr, "%s: %s\n", g_name, line.data());
   }
 }
 
-// A full table shares its last place: lines may then be held back together, none is lost uncounted.
+// When the table is full, further formats share its last entry. Their lines are then suppressed
+// together, but each is counted.
 Site& site_of(const char* format) {
   for (Site& site : g_sites) {
     if (site.format == format) return site;
@@ -59,14 +60,14 @@ void log_limited(const char* format, ...) {
   Site& site = site_of(format);
   const std::int64_t now_us = monotonic_us();
   if (now_us < site.next_us) {
-    ++site.num_held_back;
+    ++site.num_suppressed;
     return;
   }
   std::va_list arguments;
   va_start(arguments, format);
-  print(format, arguments, site.num_held_back);
+  print(format, arguments, site.num_suppressed);
   va_end(arguments);
-  site.num_held_back = 0;
+  site.num_suppressed = 0;
   site.next_us = now_us + kQuiet_us;
 }
 

@@ -1,17 +1,21 @@
-/// Lines for a human on stderr: "plumb-vo: ...". A repeating line is held back to one per second
-/// and counted.
+/// Log lines on stderr for people to read: "plumb-vo: ...".
+///
+/// Threads:
+///   One thread logs; the functions share a table without locks.
+/// Memory:
+///   Nothing is allocated; a line is cut at 511 characters.
 #pragma once
 
 namespace plumb {
 
-/// Name that begins every line; kept by pointer.
+/// Sets the name that begins every line. Only the pointer is kept.
 void set_log_name(const char* name);
 
-/// One line, at once.
+/// Writes one line.
 void log_line(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
-/// One line, at most once a second per `format` (told apart by its address, so pass a literal); the
-/// next line says how many were held back.
+/// Writes at most one line a second per `format`; the next line states how many were suppressed.
+/// Formats are told apart by their addresses, so `format` must be a string literal.
 void log_limited(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
 }  // namespace plumb

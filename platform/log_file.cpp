@@ -135,7 +135,7 @@ bool LogReader::sync_at(std::int64_t offset) const {
          load_be(raw.data(), 4) == kSync;
 }
 
-// First offset in [from, to) where a plausible event begins; `to` when there is none.
+// Returns the first offset in [from, to) where a plausible event begins, or `to` if there is none.
 std::int64_t LogReader::find_event(std::int64_t from, std::int64_t to) const {
   std::array<std::uint8_t, 65536> chunk{};
   while (from < to) {
@@ -175,7 +175,7 @@ LogWriter::LogWriter(const std::string& path) : path_(path) {
 LogWriter::~LogWriter() {
   try {
     if (fd_ >= 0) flush();
-  } catch (const LogError&) {  // a destructor has nobody to tell; close() reports
+  } catch (const LogError&) {  // a destructor cannot report the error; close() does
   }
   release();
 }
@@ -206,7 +206,7 @@ void LogWriter::flush() {
     if (put < 0 && errno == EINTR) continue;
     if (put < 0) {
       const std::string reason = with_errno(path_, "cannot write");
-      // Cut back to whole events: what was accepted before stays readable.
+      // The file is cut back to whole events, so that the events written before stay readable.
       std::size_t whole = 0;
       while (whole + kHeaderBytes <= done) {
         const std::uint64_t next = whole + kHeaderBytes + load_be(&buffer_[whole + 20], 4) +

@@ -1,10 +1,14 @@
-/// LCM log files: read what is intact, say where the rest broke, and write without losing an
-/// accepted event.
+/// Reads and writes LCM log files. The reader returns every intact event and reports where the file
+/// is damaged. The writer loses no event that it accepted.
 ///
-/// Format   per event, big-endian: sync word 0xEDA1DA01, event number (i64), time stamp (i64, us),
-///          channel length (i32), data length (i32), channel, data.
-/// Memory   the reader owns one buffer that grows to the largest event; an event's views end with
-/// the next call.
+/// Format:
+///   Each event is big-endian: sync word 0xEDA1DA01, event number (i64), time stamp (i64, us),
+///   channel length (i32), data length (i32), channel, data.
+/// Memory:
+///   The reader owns one buffer, which grows to the largest event. The views in an event are valid
+///   until the next call.
+/// Errors:
+///   Both classes throw LogError ("FILE: reason").
 #pragma once
 
 #include <cstdint>
@@ -16,7 +20,7 @@
 
 namespace plumb {
 
-/// A log cannot be opened, read or written: "FILE: reason". Programs print it and stop.
+/// The exception for a log that cannot be opened, read or written. Programs print it and stop.
 class LogError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,13 +28,13 @@ class LogError : public std::runtime_error {
 
 struct LogEvent {
   std::int64_t number = 0;
-  std::int64_t log_us = 0;  ///< when the logger saw it, or the true time in a converted log
+  std::int64_t log_us = 0;  ///< time at the logger, or the capture time in a converted log
   std::string_view channel;
   std::span<const std::uint8_t> data;
 };
 
-/// Reads event by event. Damage is skipped by searching for the next sync word; every damaged place
-/// is reported.
+/// Reads a log event by event. After damage the reader searches for the next sync word, and it
+/// reports every damaged place.
 class LogReader {
  public:
   static constexpr std::int32_t kMaxChannelBytes = 63;
@@ -43,10 +47,10 @@ class LogReader {
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;
 
-  /// The next intact event; false at the end. Throws LogError when the device fails.
+  /// Reads the next intact event. Returns false at the end. Throws LogError when the device fails.
   [[nodiscard]] bool next(LogEvent* event);
 
-  /// "FILE: byte OFFSET: reason", the first kMaxProblems of them; empty for a sound log.
+  /// The first kMaxProblems damaged places as "FILE: byte OFFSET: reason".
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
   [[nodiscard]] std::int64_t num_problems() const { return num_problems_; }
   [[nodiscard]] std::int64_t num_events() const { return num_events_; }
@@ -72,19 +76,20 @@ class LogReader {
   std::vector<std::uint8_t> buffer_;
 };
 
-/// Writes a log. After a failed write (full disk) the file is cut back to its last complete event.
+/// Writes a log. After a failed write, for example on a full disk,
+/// the file is cut back to its last complete event.
 class LogWriter {
  public:
   /// Creates or replaces the file. Throws LogError.
   explicit LogWriter(const std::string& path);
-  /// Closes without reporting; call close() to know.
+  /// Closes the file without reporting an error. Call close() to learn of one.
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
   /// Appends one event. Throws LogError ("FILE: cannot write: No space left on device").
   void write(std::int64_t log_us, std::string_view channel, std::span<const std::uint8_t> data);
-  /// Everything written is handed to the system. Throws LogError.
+  /// Passes everything written to the system and closes the file. Throws LogError.
   void close();
   [[nodiscard]] std::int64_t num_events() const { return num_events_; }
 
@@ -95,7 +100,7 @@ class LogWriter {
   std::string path_;
   int fd_ = -1;
   std::int64_t num_events_ = 0;
-  std::int64_t written_bytes_ = 0;  ///< handed to the system, always whole events
+  std::int64_t written_bytes_ = 0;  ///< passed to the system, always whole events
   std::vector<std::uint8_t> buffer_;
 };
 

@@ -15,7 +15,7 @@ MemoryUsage memory_usage() {
   if (::getrusage(RUSAGE_SELF, &self) == 0) usage.peak_bytes = std::int64_t{self.ru_maxrss} * 1024;
   const int fd = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (fd < 0) return usage;
-  // Pages: total, then resident. Read by hand, since stdio would allocate twice a second.
+  // The file lists pages: total, then resident. stdio would allocate on each of two reads a second.
   std::array<char, 128> text{};
   if (::read(fd, text.data(), text.size() - 1) > 0) {
     char* resident = nullptr;

@@ -1,4 +1,4 @@
-/// Memory of this process as the kernel sees it.
+/// The memory of this process as the kernel accounts it.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 namespace plumb {
 
 struct MemoryUsage {
-  std::int64_t rss_bytes = 0;  ///< 0 where the kernel does not say
+  std::int64_t rss_bytes = 0;  ///< 0 where the kernel does not report it
   std::int64_t peak_bytes = 0;
 };
 

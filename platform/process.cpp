@@ -49,7 +49,7 @@ struct Process::Impl {
 };
 
 Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) {
-  hold_stop_signals();  // one that comes before the loop is there is taken by the loop
+  block_stop_signals();  // the loop receives a signal that arrives before its construction
   set_log_name(impl_->program.c_str());
   CLI::App& app = impl_->app;
   app.add_option("--lcm-url", impl_->url,
@@ -102,7 +102,7 @@ void Process::serve(const std::function<void()>& setup) {
   Impl& p = *impl_;
   p.loop.emplace();
   p.bus.emplace(p.url, &p.counters);
-  Counters health_counters;  // health messages are not this process's product
+  Counters health_counters;  // health messages do not count as output of the process
   Publisher<process_health_t> publisher(*p.bus, p.info.health, Health::kMaxBytes, &health_counters);
   setup();
   if (!p.bus->subscribers().empty()) {

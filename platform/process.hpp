@@ -1,11 +1,18 @@
-/// What every plumb-* process shares: options, configuration, signals, health, exit codes.
+/// The shell of every plumb-* process: options, configuration, signals, health and exit codes.
 ///
-/// Use      construct first thing in main; declare_options(); run(), whose setup makes the endpoints.
-/// Signals  SIGINT and SIGTERM are held from construction on and end run() in order.
-/// Exit     0 after --help, --version, --print-config, SIGINT and SIGTERM; 2 for an option, key,
-/// value or file that
-///          is refused, with one sentence; 1 when the machine fails us (no network, no
-///          descriptors).
+/// Use:
+///   Construct the Process first in main(), call declare_options(), then call run(), whose `setup`
+///   creates the endpoints.
+/// Threads:
+///   Everything runs in the thread that calls run(), callbacks included.
+/// Signals:
+///   SIGINT and SIGTERM are blocked from construction on, and they end run() normally.
+/// Errors:
+///   run() prints one sentence and returns the exit code. 0 follows --help, --version,
+///   --print-config, SIGINT and SIGTERM. 2 follows a refused option, key, value or file. 1 follows
+///   a failure of the machine, such as a missing network.
+/// Memory:
+///   `setup` may allocate. The shell allocates nothing after it.
 #pragma once
 
 #include <cstdint>
@@ -28,16 +35,16 @@ class App;
 
 namespace plumb {
 
-/// Options that a program refuses. Process turns it, as any InputError, into one line and exit code 2.
+/// The exception for refused options. Like every InputError it leads to one line and exit code 2.
 class UsageError : public InputError {
  public:
   using InputError::InputError;
 };
 
 struct ProcessInfo {
-  const char* name;       ///< "vo": the program is plumb-vo
-  const char* summary;    ///< for --help
-  const Channel& health;  ///< where process_health_t goes
+  const char* name;       ///< "vo" when the program is plumb-vo
+  const char* summary;    ///< sentence for --help
+  const Channel& health;  ///< channel of its process_health_t
 };
 
 class Process {
@@ -49,12 +56,11 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// Options of this program's own; `declare` needs <CLI/CLI.hpp> and runs within run().
+  /// Adds options of this program. `declare` runs within run() and needs <CLI/CLI.hpp>.
   void declare_options(std::function<void(CLI::App&)> declare);
 
-  /// Everything after the options: reads them, fills `config`, joins LCM, calls `setup` (which
-  /// creates the endpoints) and serves until a stop signal. Returns the exit code; prints what is
-  /// wrong.
+  /// Parses the options, fills `config`, joins the LCM network, calls `setup` and serves until a
+  /// stop signal. Returns the exit code.
   template <typename Config>
   int run(int argc, char** argv, Config* config, const std::function<void()>& setup) {
     return run_bound(argc, argv,
@@ -63,8 +69,8 @@ class Process {
                      setup);
   }
 
-  // Inside setup and callbacks:
-  [[nodiscard]] const std::string& config_path() const;  ///< as given; empty for none
+  // The following are valid inside `setup` and in callbacks.
+  [[nodiscard]] const std::string& config_path() const;  ///< empty when none was given
   [[nodiscard]] Bus& bus();
   [[nodiscard]] EventLoop& loop();
   [[nodiscard]] Health& health();
@@ -85,8 +91,8 @@ class Process {
 };
 
 /// Parses the command line of any plumb-* program. Returns the exit code when the program is done
-/// (--help, --version, a refused option), -1 when it is to go on. `program` as printed before the
-/// sentence.
+/// (--help, --version, a refused option), and -1 when it is to continue. An error message begins
+/// with the name `program`.
 [[nodiscard]] int parse_command_line(CLI::App& app, const char* program, int argc, char** argv);
 
 }  // namespace plumb

@@ -40,15 +40,15 @@ void StageTimer::mark(const char* name) {
   const std::int64_t now_ns = monotonic_ns();
   const double spent_us = static_cast<double>(now_ns - stage_start_ns_) * 1e-3;
   stage_start_ns_ = now_ns;
-  const auto held = stages_.begin() + static_cast<std::ptrdiff_t>(num_stages_);
-  auto stage = std::find_if(stages_.begin(), held, [name](const Stage& s) {
+  const auto end_of_used = stages_.begin() + static_cast<std::ptrdiff_t>(num_stages_);
+  auto stage = std::find_if(stages_.begin(), end_of_used, [name](const Stage& s) {
     return s.name == name || std::strcmp(s.name, name) == 0;
   });
   if (stage == stages_.end()) {
     ++num_refused_;
     return;
   }
-  if (stage == held) {
+  if (stage == end_of_used) {
     stage->name = name;
     ++num_stages_;
   }

@@ -1,8 +1,11 @@
 /// Measures how long each stage of a frame takes: median, 99th percentile and maximum per stage.
 ///
-/// Units    microseconds out, CLOCK_MONOTONIC inside.
-/// Memory   a histogram per stage in place (about 50 kB in all); nothing grows.
-/// Accuracy quantiles within 2 % (32 bins per octave from 0.5 us to 8 s); the maximum is exact.
+/// Units:
+///   Durations are in microseconds of CLOCK_MONOTONIC.
+/// Memory:
+///   Each stage has a histogram in place, about 50 kB in all. Nothing is allocated.
+/// Accuracy:
+///   Quantiles are within 2 % (32 bins per octave from 0.5 us to 8 s). The maximum is exact.
 #pragma once
 
 #include <array>
@@ -13,13 +16,13 @@
 
 namespace plumb {
 
-/// Fixed log-spaced histogram of durations.
+/// A histogram of durations with fixed, logarithmically spaced bins.
 class DurationHistogram {
  public:
   void add(double duration_us);
   [[nodiscard]] std::int64_t num_samples() const { return num_samples_; }
   [[nodiscard]] double max_us() const { return max_us_; }
-  /// Value that a share `q` in [0, 1] of the samples does not exceed; 0 without samples.
+  /// The value that a share `q` in [0, 1] of the samples does not exceed; 0 without samples.
   [[nodiscard]] double quantile_us(double q) const;
 
  private:
@@ -40,24 +43,24 @@ struct StageStats {
   double last_us = 0.0;  ///< in the newest frame; 0 when the stage did not run in it
 };
 
-/// begin(), mark() per stage, end(): one frame. A stage marked twice in a frame counts with its sum. A begin() inside
-/// a frame restarts the running stage only, so a caller may time work of its own around a library that begins by
-/// itself; a frame that is given up needs no end().
+/// Times one frame by begin(), one mark() per stage, and end(). A stage that is marked twice in a
+/// frame counts with its sum. A begin() inside a frame restarts only the running stage, so that a
+/// caller may time its own work around a library that calls begin() itself. An abandoned frame
+/// needs no end().
 class StageTimer final : public StageProbe {
  public:
   static constexpr std::size_t kMaxStages = 16;
 
   void begin() override;
   void mark(const char* name) override;
-  /// The frame is over: its stages, and their total from the first begin() on, enter the
-  /// statistics.
+  /// Ends the frame. Its stages and their total since the first begin() enter the statistics.
   void end();
 
-  /// Stages seen so far, in order of first appearance; the last one is "total".
+  /// Number of stages so far, in the order of their first appearance; the last one is "total".
   [[nodiscard]] std::size_t num_stages() const { return num_frames_ == 0 ? 0 : num_stages_ + 1; }
   [[nodiscard]] StageStats stats(std::size_t stage) const;
   [[nodiscard]] StageStats total() const;
-  /// Marks that were lost because kMaxStages - 1 names were in use.
+  /// Number of marks that were ignored because kMaxStages - 1 names were in use.
   [[nodiscard]] std::int64_t num_refused() const { return num_refused_; }
 
  private:

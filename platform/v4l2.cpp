@@ -162,7 +162,7 @@ bool V4l2Camera::try_format(const V4l2Request& request, const std::string& fourc
 bool V4l2Camera::choose_rate(double rate_hz) {
   v4l2_streamparm parameters{};
   parameters.type = kCapture;
-  if (call(fd_, VIDIOC_G_PARM, &parameters) < 0) return true;  // an optional part of V4L2
+  if (call(fd_, VIDIOC_G_PARM, &parameters) < 0) return true;  // drivers need not implement it
   v4l2_captureparm& capture = parameters.parm.capture;
   if (rate_hz > 0.0 && (capture.capability & V4L2_CAP_TIMEPERFRAME) != 0) {
     constexpr double kTicks = 10'000.0;
@@ -250,11 +250,11 @@ void V4l2Camera::release() {
   if (held_ < 0) return;
   v4l2_buffer buffer = capture_buffer(held_);
   held_ = -1;
-  // A failure is the end of the stream, which the next take() reports.
+  // A failure means the end of the stream, which the next take() reports.
   (void)call(fd_, VIDIOC_QBUF, &buffer);
 }
 
-/// Without a frame to take, an error on the descriptor is the end of the stream.
+/// When no frame waits, an error on the descriptor means the end of the stream.
 bool V4l2Camera::has_hung_up() const {
   pollfd poll_fd{fd_, POLLIN, 0};
   if (::poll(&poll_fd, 1, 0) <= 0) return false;

@@ -1,9 +1,12 @@
 /// A V4L2 capture device: buffers shared with the driver, its time stamps and its frame counter.
 ///
-/// Failure  is a value: a device that was unplugged, a stream that died and a frame that the driver
-///          marks as damaged are told apart. Nothing here retries; the caller decides.
-/// Units    [us] CLOCK_MONOTONIC, as drivers stamp.
-/// Memory   the driver's buffers are mapped by open(); take() allocates nothing.
+/// Errors:
+///   A failure is a value. An unplugged device, a failed stream and a frame that the driver marks
+///   as damaged have values of their own. Nothing here retries; the caller decides.
+/// Units:
+///   Time stamps are in microseconds of CLOCK_MONOTONIC, which is the clock of the drivers.
+/// Memory:
+///   open() maps the buffers of the driver; take() allocates nothing.
 #pragma once
 
 #include <array>
@@ -15,41 +18,40 @@
 
 namespace plumb {
 
-/// What to ask of a device.
+/// What the caller requests of a device.
 struct V4l2Request {
   std::string device;                ///< "/dev/video0"
   std::vector<std::string> fourccs;  ///< acceptable formats, best first
-  int width_px = 0;                  ///< 0: the device's own size
-  int height_px = 0;
-  double rate_hz = 0.0;  ///< 0: the device's own rate
+  int width_px = 0;                  ///< 0: the size that the device has set
+  int height_px = 0;                 ///< 0: the size that the device has set
+  double rate_hz = 0.0;              ///< 0: the rate that the device has set
   int num_buffers = 4;
 };
 
-/// What it granted.
+/// What the device granted.
 struct V4l2Format {
   std::string fourcc;
   int width_px = 0;
   int height_px = 0;
   std::size_t stride_bytes = 0;
-  double rate_hz = 0.0;  ///< 0 when the driver does not tell
+  double rate_hz = 0.0;  ///< 0 when the driver does not report it
   int num_buffers = 0;
   std::string card;
 };
 
 struct V4l2Frame {
-  std::span<const std::uint8_t> bytes;  ///< the driver's buffer; until release()
-  std::int64_t stamp_us = 0;
-  bool stamped_by_driver =
-      false;                   ///< false: the driver keeps no monotonic time, this is dequeue time
-  std::uint32_t sequence = 0;  ///< driver's counter; a step above 1 is a frame it dropped
+  std::span<const std::uint8_t> bytes;  ///< the driver's buffer; valid until release()
+  std::int64_t stamp_us = 0;  ///< time of dequeuing when the driver gives no monotonic time
+  bool stamped_by_driver = false;
+  std::uint32_t sequence = 0;  ///< driver's counter; a step above 1 means dropped frames
 };
 
 enum class V4l2Status : std::uint8_t {
   kFrame,
   kNothing,  ///< no frame is waiting
-  kCorrupt,  ///< a frame the driver marked as damaged; `sequence` and `stamp_us` hold
-  kGone,     ///< unplugged
-  kFailed,   ///< the stream died, the device is still there
+  kCorrupt,  ///< the driver marked the frame as damaged; `sequence` and `stamp_us` are valid
+  kGone,     ///< the device was unplugged
+  kFailed,   ///< the stream failed, but the device is still present
 };
 
 class V4l2Camera {
@@ -60,11 +62,13 @@ class V4l2Camera {
   V4l2Camera(const V4l2Camera&) = delete;
   V4l2Camera& operator=(const V4l2Camera&) = delete;
 
-  /// Readable when take() has something to say. The same descriptor over all open() and close().
+  /// A descriptor that is readable while take() has a result.
+  /// It stays the same over open() and close().
   [[nodiscard]] int fileno() const { return epoll_fd_; }
 
-  /// Opens, negotiates and starts streaming. False, closed, with why() in one sentence, when any of
-  /// it is refused: a format or size that the driver replaced by another counts as refused.
+  /// Opens the device, negotiates the format and starts streaming. Returns false, with the device
+  /// closed and the reason in why(), when any step is refused. A format or size that the driver
+  /// replaces by another counts as refused.
   [[nodiscard]] bool open(const V4l2Request& request);
   void close();
   [[nodiscard]] bool is_open() const { return fd_ >= 0; }
@@ -72,13 +76,14 @@ class V4l2Camera {
   /// @pre is_open()
   [[nodiscard]] const V4l2Format& format() const { return format_; }
 
-  /// The oldest waiting frame; never blocks. Releases the previous one.
+  /// Releases the previous frame and takes the oldest that waits. Never blocks.
   /// @pre is_open()
   [[nodiscard]] V4l2Status take(V4l2Frame* frame);
-  /// Gives the frame's buffer back to the driver: the sooner, the fewer buffers it needs.
+  /// Returns the frame's buffer to the driver.
+  /// The sooner this is called, the fewer buffers the driver needs.
   void release();
 
-  /// Why open() refused, or take() returned kGone or kFailed.
+  /// The reason why open() refused, or why take() returned kGone or kFailed.
   [[nodiscard]] const std::string& why() const { return why_; }
 
   static constexpr int kMaxBuffers = 32;
@@ -104,7 +109,7 @@ class V4l2Camera {
   std::string device_;
   V4l2Format format_;
   std::array<Mapping, kMaxBuffers> mappings_{};
-  int held_ = -1;  ///< index of the buffer that the caller is reading
+  int held_ = -1;  ///< index of the buffer that the caller reads; -1 for none
   std::string why_;
 };
 

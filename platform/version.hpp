@@ -1,4 +1,4 @@
-/// Version of the project, as CMake knows it.
+/// The version of the project, which CMakeLists.txt states.
 #pragma once
 
 namespace plumb {

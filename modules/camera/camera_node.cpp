@@ -8,7 +8,7 @@
 namespace plumb {
 namespace {
 
-/// The mask file's pixels, rows without gaps; empty without a file.
+/// Reads the pixels of the mask file, as rows without gaps. Returns an empty matrix without a file.
 cv::Mat read_mask(const CameraConfig& config, const std::filesystem::path& folder) {
   if (config.mask_file.empty()) return {};
   const std::string file = (folder / config.mask_file).string();

@@ -1,6 +1,8 @@
-/// Everything plumb-camera does between a grey frame and the messages CAMERA and CAMERA_CALIBRATION.
+/// Everything that plumb-camera does between a grey frame and the messages CAMERA and
+/// CAMERA_CALIBRATION.
 ///
-/// Memory   images and tables are allocated at construction.
+/// Memory:
+///   Images and tables are allocated at construction.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +21,19 @@ namespace plumb {
 
 class CameraNode {
  public:
-  /// `config` is complete: size and focal lengths are set. A relative camera.mask_file is looked for
-  /// in `folder`. Throws UsageError. `probe` outlives the node.
+  /// A relative camera.mask_file is relative to `folder`.
+  /// `probe` outlives the node. Throws UsageError.
+  /// @pre the image size and the focal lengths in `config` are set
   CameraNode(const CameraConfig& config, const std::filesystem::path& folder, StageProbe* probe);
 
-  /// The message of the frame; until the next call. @pre the frame has the configured size
+  /// Builds the message of the frame, which is valid until the next call.
+  /// @pre the frame has the configured size
   [[nodiscard]] const image_t& take(const GreyFrame& frame);
   [[nodiscard]] camera_calibration_t calibration(std::int64_t capture_us) const;
 
-  /// What is wrong with the newest images.
+  /// The fault of the newest images.
   [[nodiscard]] ImageFault fault() const { return fault_; }
-  /// Largest encoding of CAMERA.
+  /// [bytes] The largest encoding of CAMERA.
   [[nodiscard]] std::size_t max_bytes() const;
 
  private:

@@ -19,7 +19,8 @@ PixelFormat format_of(const std::string& fourcc) {
 V4l2Request request_of(const CameraConfig& config, const std::string& device) {
   V4l2Request request;
   request.device = device;
-  // Cheapest first: a luma plane is used in place, packed luma is gathered, MJPEG is decoded.
+  // The cheapest format comes first: a luma plane is used in place, packed luma is copied, and
+  // MJPEG is decoded.
   request.fourccs = {"GREY", "NV12", "YUYV", "MJPG"};
   if (config.pixel_format != "auto") request.fourccs = {config.pixel_format};
   request.width_px = config.width_px;
@@ -77,12 +78,14 @@ DeviceStep DeviceSource::take(GreyFrame* frame) {
     give_up(camera_.why());
     return DeviceStep::kLost;
   }
-  if (!raw.stamped_by_driver) log_limited("the driver gives no capture time; arrival time is used");
+  if (!raw.stamped_by_driver)
+    log_limited("the driver gives no capture time; the arrival time is used");
   const std::int64_t capture_us = raw.stamp_us + stamp_offset_us_;
   count_silence(capture_us);
   const std::int64_t seq = sequence_.next(raw.sequence);
   if (status == V4l2Status::kCorrupt) return reject("the driver marks a frame as damaged");
-  // Measured against the newest stamp, good or not: a clock that was set back costs one frame.
+  // The time is compared with the newest stamp, rejected or not, so that a clock that was set back
+  // costs only one frame.
   const bool backwards = has_last_ && capture_us <= last_capture_us_;
   has_last_ = true;
   last_capture_us_ = capture_us;
@@ -104,7 +107,7 @@ void DeviceSource::count_silence(std::int64_t capture_us) {
   const double rate_hz = camera_.format().rate_hz;
   const double silence_s =
       has_last_ ? static_cast<double>(capture_us - last_capture_us_) * 1e-6 : 0.0;
-  // At least one: whoever reads the stream has to see that it was interrupted.
+  // The gap is at least one frame, so that every reader notices the interruption.
   sequence_.restart(std::max<std::int64_t>(1, std::llround(silence_s * rate_hz) - 1));
 }
 

@@ -1,9 +1,14 @@
-/// A V4L2 camera as grey frames with sequence numbers that survive its loss and return.
+/// A V4L2 camera as a source of grey frames. Its sequence numbers continue after the device was
+/// lost and opened again.
 ///
-/// Time     the driver's stamp plus camera.stamp_offset_s; dequeue time when the driver keeps none.
-/// seq      from the driver's counter: what it dropped shows as a gap. Over a loss of the device the gap
-///          is the silence divided by the frame period.
-/// Memory   one grey image and, for MJPEG, OpenCV's decoder, which allocates inside.
+/// Time:
+///   The capture time is the driver's stamp plus camera.stamp_offset_s. When the driver gives no
+///   stamp, the time of dequeuing is used.
+/// Sequence:
+///   Numbers follow the driver's counter, so that dropped frames show as a gap. After a loss of the
+///   device the gap is the duration of the loss divided by the frame period.
+/// Memory:
+///   One grey image and, for MJPEG, OpenCV's decoder, which allocates in every call.
 #pragma once
 
 #include <cstdint>
@@ -21,33 +26,35 @@
 namespace plumb {
 
 enum class DeviceStep : std::uint8_t {
-  kNothing,   ///< nothing is waiting
-  kFrame,     ///< here is one
-  kRejected,  ///< one came, unusable: rejection() says why
-  kLost,      ///< the device is closed: why() says what happened
+  kNothing,   ///< no frame waits
+  kFrame,     ///< a frame was taken
+  kRejected,  ///< a frame arrived that cannot be used; rejection() is the reason
+  kLost,      ///< the device was lost and is closed; why() is the reason
 };
 
 class DeviceSource {
  public:
   DeviceSource(const CameraConfig& config, const std::string& device);
 
-  /// Opens for the first time, and takes the size it has. Throws UsageError when it is not what
-  /// the configuration asks for.
+  /// Opens the device for the first time and writes its image size to `config`. Throws UsageError
+  /// when the device does not offer what the configuration requests.
   void open_first(CameraConfig* config);
-  /// Opens again after a loss: same size, any of the formats. False with why().
+  /// Opens the device again after a loss, with the same size and any of the formats. Returns false,
+  /// with the reason in why(), when that fails.
   [[nodiscard]] bool reopen();
-  /// Closes a device that has gone silent.
+  /// Closes a device that delivers no more frames; `why` becomes why().
   void give_up(const std::string& why);
 
   [[nodiscard]] int fileno() const { return camera_.fileno(); }
   [[nodiscard]] bool is_open() const { return camera_.is_open(); }
+  /// Takes the next frame. It is valid until release() or the next call.
   [[nodiscard]] DeviceStep take(GreyFrame* frame);
-  /// The frame has been used: its buffer goes back to the driver.
+  /// Returns the buffer of the frame to the driver.
   void release() { camera_.release(); }
 
   [[nodiscard]] const std::string& why() const { return why_; }
   [[nodiscard]] const char* rejection() const { return rejection_; }
-  /// Frames missing by the driver's counter.
+  /// Number of missing frames according to the driver's counter.
   [[nodiscard]] std::int64_t num_missing() const { return sequence_.num_missing(); }
 
  private:
@@ -65,7 +72,7 @@ class DeviceSource {
   bool has_last_ = false;
   std::int64_t last_capture_us_ = 0;
   std::vector<std::uint8_t> grey_;
-  std::optional<ImageDecoder> jpeg_;  ///< once the size is known
+  std::optional<ImageDecoder> jpeg_;  ///< set once the size is known
   std::string why_;
   const char* rejection_ = "";
 };

@@ -49,7 +49,8 @@ bool is_inside(const std::vector<Corner>& corners, double u_px, double v_px) {
   return inside;
 }
 
-/// Distance to the nearest covered pixel in thirds of a pixel (chamfer 3-4; Borgefors 1986).
+/// Distance of each pixel to the nearest covered one, in thirds of a pixel (chamfer 3-4 distance
+/// transform; Borgefors 1986).
 std::vector<int> chamfer(const std::vector<std::uint8_t>& covered, int width, int height) {
   constexpr int kFar = std::numeric_limits<int>::max() / 2;
   std::vector<int> d(covered.size());
@@ -127,7 +128,7 @@ EgoMask::EgoMask(const MaskPainter& painter, int feather_px) {
     }
     in_run = true;
     ++runs_.back().length;
-    // Smoothstep: the blend has no kink at either end.
+    // A smoothstep has no kink at either end of the blend.
     const double x = static_cast<double>(distance[i]) / reach;
     weights_.push_back(static_cast<std::uint16_t>(std::lround(256.0 * x * x * (3.0 - 2.0 * x))));
   }

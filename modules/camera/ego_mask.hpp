@@ -1,13 +1,14 @@
-/// What the camera never sees of the road: bonnet, wiper rest, housing, and the corners
-/// rectification leaves.
+/// A mask over the pixels that never show the road: the bonnet, the wipers at rest, the housing of
+/// the camera and the corners that rectification leaves empty.
 ///
-/// A masked pixel gets one flat grey per frame, so that nothing can be tracked there. That grey is
-/// the mean of the band around the mask, and the image blends into it over `feather_px`: a hard
-/// step would be a corner that stands still in every frame, which is what the mask is there to
-/// prevent.
+/// All masked pixels of a frame get the same grey level, so that no feature can be tracked there.
+/// The level is the mean of the band around the mask, and the image blends into it over
+/// `feather_px`. A sharp step would itself be a static feature, which the mask has to prevent.
 ///
-/// Frames   img of the published image, (0,0) is the centre of the upper left pixel.
-/// Memory   allocated at construction: one weight per pixel that is not left alone.
+/// Frames:
+///   img of the published image; (0,0) is the centre of the upper left pixel.
+/// Memory:
+///   One weight per changed pixel, allocated at construction.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +17,17 @@
 
 namespace plumb {
 
-/// Covered pixels of one image, for building. Everything here may allocate.
+/// Collects the covered pixels of one image. Every function may allocate.
 class MaskPainter {
  public:
   MaskPainter(int width_px, int height_px);
 
   void add_rows(int num_top, int num_bottom);
-  /// Non-zero covers. @pre width_px * height_px bytes, rows without gaps
+  /// Covers the pixels whose byte is not zero.
+  /// @pre width_px * height_px bytes, rows without gaps
   void add_bytes(const std::uint8_t* bytes);
-  /// "u,v u,v u,v ...", at least three corners; a pixel is covered when its centre is inside
-  /// (even-odd rule). False when the text is not that.
+  /// Covers the pixels whose centres are inside a polygon (even-odd rule). `text` lists at least
+  /// three corners as "u,v u,v u,v ...". Returns false for any other text.
   [[nodiscard]] bool add_polygon(std::string_view text);
 
   [[nodiscard]] int width_px() const { return width_px_; }
@@ -44,22 +46,23 @@ class EgoMask {
   /// @pre feather_px >= 1
   EgoMask(const MaskPainter& painter, int feather_px);
 
-  /// In place. @pre `image` has the painter's size, rows without gaps
+  /// Masks `image` in place.
+  /// @pre `image` has the painter's size and rows without gaps
   void apply(std::uint8_t* image) const;
 
-  /// True when no pixel is touched.
+  /// True when the mask changes no pixel.
   [[nodiscard]] bool empty() const { return runs_.empty(); }
 
  private:
   struct Run {
-    std::uint32_t begin;  ///< first pixel, counted over the whole image
+    std::uint32_t begin;  ///< index of the first pixel in the whole image
     std::uint32_t length;
-    std::uint32_t weight;  ///< index of its first weight
+    std::uint32_t weight;  ///< index of the first weight
   };
   [[nodiscard]] std::uint32_t band_mean(const std::uint8_t* image) const;
 
   std::vector<Run> runs_;
-  std::vector<std::uint16_t> weights_;  ///< [1/256] share of the image's own pixel
+  std::vector<std::uint16_t> weights_;  ///< [1/256] share of the image in the blend
 };
 
 }  // namespace plumb

@@ -11,7 +11,7 @@ MaskPainter paint(const CameraConfig& config, const Rectifier& rectifier, int wi
   painter.add_rows(config.mask_top_rows, config.mask_bottom_rows);
   if (!config.mask_polygon.empty()) (void)painter.add_polygon(config.mask_polygon);
   if (mask_bytes != nullptr) painter.add_bytes(mask_bytes);
-  // What rectification could not see would be a border that stands still, like the car's own.
+  // The border of the area that the camera did not see is as static as that of the vehicle itself.
   painter.add_bytes(rectifier.unseen().data());
   return painter;
 }
@@ -63,7 +63,7 @@ CameraModel published_model(const CameraConfig& config, int width_px, int height
 
 std::string why_unusable(const CameraConfig& config, int width_px, int height_px,
                          const std::uint8_t* mask_bytes) {
-  constexpr int kMinSide = 64;  // of what the estimators take
+  constexpr int kMinSide = 64;  // the estimators accept no smaller image
   constexpr double kMaxCovered = 0.9;
   const std::string size = std::to_string(width_px) + "x" + std::to_string(height_px);
   if (width_px < kMinSide || height_px < kMinSide) return "an image of " + size + " is too small";

@@ -1,10 +1,11 @@
-/// One captured grey image -> the image that is published: judged, rectified, masked.
+/// Checks, rectifies and masks a captured grey image before it is published. This is an algorithm
+/// without a clock and without input or output.
 ///
-/// Pure algorithm: no clock, no I/O, no heap after construction. `main.cpp` is the process around
-/// it.
-///
-/// Frames   img: u right, v down, (0,0) is the centre of the upper left pixel.
-/// Memory   the rectifier's tables, the mask's weights and one previous image.
+/// Frames:
+///   img: u right, v down; (0,0) is the centre of the upper left pixel.
+/// Memory:
+///   The tables of the rectifier, the weights of the mask and one previous image. Nothing is
+///   allocated after construction.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +21,28 @@
 
 namespace plumb {
 
-/// The lens and the two pinholes a configuration states. @pre its focal lengths are set
+/// The lens and the two pinhole cameras that a configuration describes.
+/// @pre the focal lengths are set
 [[nodiscard]] Lens lens_of(const CameraConfig& config);
 [[nodiscard]] PinholePx captured_pinhole(const CameraConfig& config);
 [[nodiscard]] PinholePx published_pinhole(const CameraConfig& config);
 
-/// What is published on CAMERA_CALIBRATION for images of this size.
+/// The camera model that is published on CAMERA_CALIBRATION for images of this size.
 [[nodiscard]] CameraModel published_model(const CameraConfig& config, int width_px, int height_px);
 
-/// Why no image could be published with this configuration; empty when one can. `mask_bytes` as
-/// below.
+/// The reason why images cannot be published with this configuration; empty when they can.
+/// `mask_bytes` has the same meaning as for FrontEnd.
 [[nodiscard]] std::string why_unusable(const CameraConfig& config, int width_px, int height_px,
                                        const std::uint8_t* mask_bytes);
 
 class FrontEnd {
  public:
-  /// `mask_bytes`: the mask file's pixels, non-zero is covered, or null.
+  /// `mask_bytes` are the pixels of the mask file, in which non-zero means covered, or null.
   /// @pre why_unusable() is empty; `mask_bytes` has width_px * height_px bytes
   FrontEnd(const CameraConfig& config, int width_px, int height_px, const std::uint8_t* mask_bytes);
 
-  /// Fills `published` (rows without gaps) from `captured`; returns the fault that stands after it.
-  /// A sick image is published all the same: who uses it decides, by the same pixels.
+  /// Fills `published` (rows without gaps) from `captured` and returns the current fault. A faulty
+  /// image is published as well; each reader decides whether to use it.
   /// @pre `captured` has the constructed size
   ImageFault process(const ImageView& captured, std::uint8_t* published, StageProbe* probe);
 

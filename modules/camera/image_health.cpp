@@ -15,7 +15,7 @@ const char* describe(ImageFault fault) {
     case ImageFault::kFlat:
       return "the image is flat: lens covered, fog or saturation";
     case ImageFault::kFrozen:
-      return "the image is frozen: every pixel as before";
+      return "the image is frozen: every pixel equals that of the previous image";
     case ImageFault::kNone:
       break;
   }
@@ -40,7 +40,7 @@ ImageFault ImageHealth::update(const ImageView& image) {
 }
 
 void ImageHealth::measure(const ImageView& image) {
-  // Every fourth row is plenty for a mean and a spread, and keeps the pass below 0.1 ms.
+  // Every fourth row suffices for mean and standard deviation and keeps the time below 0.1 ms.
   constexpr int kRowStep = 4;
   std::uint64_t sum = 0;
   std::uint64_t sum2 = 0;

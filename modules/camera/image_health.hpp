@@ -1,7 +1,9 @@
-/// Tells a sick image from a healthy one: black, flat (covered, fogged, saturated) or frozen.
+/// Detects faulty images: black, flat (lens covered or fogged, sensor saturated) or frozen.
 ///
-/// Units    grey levels.
-/// Memory   one image, allocated at construction.
+/// Units:
+///   Grey levels.
+/// Memory:
+///   One image, allocated at construction.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +16,13 @@ namespace plumb {
 
 enum class ImageFault : std::int8_t { kNone = 0, kBlack = 1, kFlat = 2, kFrozen = 3 };
 
-/// One sentence for process health; empty for kNone.
+/// A sentence for the health of the process; empty for kNone.
 [[nodiscard]] const char* describe(ImageFault fault);
 
 struct ImageHealthLimits {
-  double black_mean = 24.0;  ///< above limited-range black (16) and a capped sensor's noise
-  double flat_std = 3.0;     ///< a road at night under head lamps has more
-  int fault_frames = 3;      ///< in a row, to raise and to clear
+  double black_mean = 24.0;  ///< above limited-range black (16) and the noise of a covered sensor
+  double flat_std = 3.0;     ///< below that of a road at night under headlamps
+  int fault_frames = 3;      ///< consecutive images that raise or clear a fault
 };
 
 class ImageHealth {
@@ -28,9 +30,9 @@ class ImageHealth {
   /// @pre width_px, height_px > 0
   ImageHealth(int width_px, int height_px, const ImageHealthLimits& limits);
 
-  /// Judges the next image; returns the fault that stands after it. A fault is raised by
-  /// `fault_frames` sick images in a row and cleared by as many healthy ones.
-  /// Frozen is equality of every byte: a live sensor has noise.
+  /// Checks the next image and returns the current fault. `fault_frames` consecutive faulty images
+  /// raise a fault, and as many healthy ones clear it. An image is frozen when every byte equals
+  /// that of the previous one, because the noise of a live sensor makes that impossible.
   /// @pre `image` has the constructed size
   ImageFault update(const ImageView& image);
 

@@ -71,7 +71,7 @@ void fill(std::int64_t capture_us, std::int64_t seq, int width_px, int height_px
     entry.value[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(seq) >> (8U * (7U - i)));
 }
 
-// Width and height in the JPEG's own header, before any decoder may allocate for them.
+// Checks width and height in the header of the JPEG, before the decoder allocates for them.
 bool jpeg_has_size(std::span<const std::uint8_t> jpeg, int width_px, int height_px) {
   if (jpeg.size() < 4 || jpeg[0] != 0xFF || jpeg[1] != 0xD8) return false;
   std::size_t at = 2;
@@ -88,7 +88,8 @@ bool jpeg_has_size(std::span<const std::uint8_t> jpeg, int width_px, int height_
   return false;
 }
 
-// libjpeg fills what is missing with grey and calls it a success; we do not. Zero padding behind is common.
+// libjpeg fills missing rows with grey and reports success, so the end marker is checked here. Many
+// cameras append zeros to it.
 bool jpeg_is_complete(std::span<const std::uint8_t> jpeg) {
   while (!jpeg.empty() && jpeg.back() == 0) jpeg = jpeg.first(jpeg.size() - 1);
   return jpeg.size() >= 4 && jpeg[jpeg.size() - 2] == 0xFF && jpeg.back() == 0xD9;

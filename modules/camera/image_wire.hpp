@@ -1,9 +1,13 @@
-/// image_t and camera_calibration_t <-> what the modules use. No LCM instance.
+/// Converts image_t and camera_calibration_t to the types of the modules and back,
+/// without an LCM instance.
 ///
-/// Reading  the bytes are walked by a bounded reader, never by the generated decoder: a corrupt length cannot make
-///          it allocate or throw. What it returns borrows the bytes.
-/// Memory   grey images are used where they lie. Compressed ones are decoded by OpenCV (libjpeg) into storage that
-///          ImageDecoder keeps; that decoder allocates inside, which is one reason to send grey on an ECU.
+/// Errors:
+///   A bounded reader parses images, not the generated decoder, so that a corrupt length can
+///   neither make it allocate nor throw. Functions return null, or the reason as a string literal.
+/// Memory:
+///   Grey images are used in place: an ImageFrame refers to the bytes that were read. OpenCV
+///   (libjpeg) decodes compressed images into storage of ImageDecoder. It allocates in every call,
+///   which is one reason to send grey images on an ECU.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +21,7 @@
 
 namespace plumb {
 
-/// A borrowed image_t. Values are as sent, checked against each other.
+/// A parsed image_t that refers to the message's bytes. Its values are consistent with each other.
 struct ImageFrame {
   std::int64_t capture_us = 0;
   std::int64_t seq = 0;
@@ -28,38 +32,40 @@ struct ImageFrame {
   std::span<const std::uint8_t> data;
 };
 
-/// Null, and `frame` filled, when `bytes` are exactly one sound image_t with a sequence number that Plumbline can
-/// read; else why not, as a literal.
+/// Fills `frame` and returns null when `bytes` are exactly one valid image_t with a sequence number
+/// and a supported pixel format.
 [[nodiscard]] const char* read_image(std::span<const std::uint8_t> bytes, ImageFrame* frame);
 
-/// Fills `message` with a grey image, rows packed. Allocates only while `message` grows.
+/// Fills `message` with a grey image whose rows have no gaps. Allocates only while `message` grows.
 void to_wire(std::int64_t capture_us, std::int64_t seq, const ImageView& image, image_t* message);
 
 /// Fills `message` with a JPEG of the given size.
 void to_wire_jpeg(std::int64_t capture_us, std::int64_t seq, int width_px, int height_px,
                   std::span<const std::uint8_t> jpeg, image_t* message);
 
-/// [bytes] that the encoding of an image with `data_bytes` of data takes at most.
+/// [bytes] The largest encoding of an image with `data_bytes` of data.
 [[nodiscard]] constexpr std::size_t max_image_bytes(std::size_t data_bytes) {
   return data_bytes + 128;
 }
 
 [[nodiscard]] camera_calibration_t to_wire(const CameraModel& camera, std::int64_t utime);
 
-/// Null, and `camera` filled, when the message describes a camera; else why not.
+/// Fills `camera` and returns null when the message describes a camera.
 [[nodiscard]] const char* from_wire(const camera_calibration_t& message, CameraModel* camera);
 
+/// True when every parameter of the two cameras is equal.
 [[nodiscard]] bool same_camera(const CameraModel& a, const CameraModel& b);
 
-/// Turns frames of one camera into grey views.
+/// Decodes the frames of one camera to grey images.
 class ImageDecoder {
  public:
   ImageDecoder(int width_px, int height_px);
   ~ImageDecoder();
 
-  /// Null when the frame has the camera's size; cheap, touches no pixel.
+  /// Returns null when the frame has the camera's size. Reads no pixel.
   [[nodiscard]] const char* check(const ImageFrame& frame) const;
-  /// Null, and `view` filled, or why not. The view lasts as long as the frame's bytes and until the next call.
+  /// Fills `view` and returns null, or returns the reason. The view is valid until the next call,
+  /// and no longer than the bytes of the frame.
   [[nodiscard]] const char* decode(const ImageFrame& frame, ImageView* view);
 
  private:

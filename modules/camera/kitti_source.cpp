@@ -21,7 +21,7 @@ bool is_distorted(const CameraConfig& c) {
          c.k3 != 0.0 || c.k4 != 0.0;
 }
 
-/// 0 takes the folder's value; another may not differ from it.
+/// Replaces a configured 0 by the value of the folder. Any other value must be equal to it.
 template <typename T>
 void take_or_compare(const char* key, T known, T* configured) {
   constexpr double kRelative = 1e-6;
@@ -63,7 +63,8 @@ void KittiSource::complete(CameraConfig* config) const {
   take_or_compare("camera.fy_px", camera.fy_px, &config->fy_px);
   take_or_compare("camera.cx_px", camera.cx_px, &config->cx_px);
   take_or_compare("camera.cy_px", camera.cy_px, &config->cy_px);
-  // One lens, one pair: a term of the settings is not mixed with one of the folder.
+  // The two coefficients describe one lens,
+  // so those of the settings and of the folder are not mixed.
   if (config->residual_k1 == 0.0 && config->residual_k2 == 0.0) {
     config->residual_k1 = camera.residual_k1;
     config->residual_k2 = camera.residual_k2;
@@ -75,7 +76,7 @@ void KittiSource::complete(CameraConfig* config) const {
 bool KittiSource::read(GreyFrame* frame) {
   if (next_ == sequence_.frames.size()) return false;
   const SequenceFrame& entry = sequence_.frames[next_];
-  if (next_ > 0) load(entry.image);  // the first one was loaded for its size
+  if (next_ > 0) load(entry.image);  // the constructor loaded the first one
   ++next_;
   *frame = {entry.capture_us,
             entry.seq,

@@ -1,7 +1,8 @@
-/// A KITTI sequence, odometry or raw drive, with the numbers, times and calibration that plumb-kitti2lcm
-/// gives it: both read it with the same code.
+/// A KITTI sequence (odometry or raw drive) as a recording. Its sequence numbers, times and
+/// calibration equal those of plumb-kitti2lcm, because both use the same reader.
 ///
-/// Memory   file names and times are read at construction; images one by one.
+/// Memory:
+///   File names and times are read at construction, images one at a time.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +15,13 @@ namespace plumb {
 
 class KittiSource final : public RecordedSource {
  public:
-  /// `camera` 0 and 1 are grey, 2 and 3 colour that becomes grey. Reads the folder and the first
-  /// image. Throws InputError.
+  /// Reads the folder and the first image. Cameras 0 and 1 are grey; 2 and 3 are colour, which is
+  /// converted to grey. Throws InputError.
   KittiSource(const std::filesystem::path& folder, int camera);
 
-  /// Size and focal lengths are the folder's, and may not contradict `config`; camera_height_m and
-  /// residual_k1 are the folder's unless `config` sets them.
+  /// Takes the size and the focal lengths from the folder, which `config` must not contradict.
+  /// Takes the camera height, the read-out time and the residual distortion from the folder unless
+  /// `config` sets them.
   void complete(CameraConfig* config) const override;
   [[nodiscard]] bool read(GreyFrame* frame) override;
 

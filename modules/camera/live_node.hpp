@@ -1,8 +1,11 @@
-/// Runs a V4L2 camera: frames as they come, and what to do when they do not.
+/// Publishes the frames of a V4L2 camera and reacts to its loss.
 ///
-/// Silence  longer than camera.timeout_s is reported; longer than three times that counts as a loss.
-/// Loss     camera.on_loss = "retry": opens again after pauses that double; "exit": says why in one
-///          more health message and ends the process with exit code 1.
+/// Timeouts:
+///   A time without frames longer than camera.timeout_s is reported.
+///   Three times that counts as a loss.
+/// Loss:
+///   With camera.on_loss = "retry" the device is opened again after pauses that double. With "exit"
+///   the reason is published in one more health message, and the process ends with exit code 1.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +20,13 @@ namespace plumb {
 
 class LiveNode {
  public:
-  /// `source` is open. All three outlive the node.
+  /// `process`, `source` and `output` outlive the node.
+  /// @pre `source` is open
   LiveNode(Process& process, DeviceSource& source, PublishNode& output, const CameraConfig& config);
 
  private:
   static constexpr std::int64_t kTick_us = 100'000;
-  /// A loss stays in health this long, even when the camera is back at once.
+  /// The health message shows a loss for this time, even when the camera returns at once.
   static constexpr std::int64_t kLossShown_us = 2 * Process::kHealthPeriod_us;
 
   void on_ready();
@@ -39,10 +43,10 @@ class LiveNode {
   std::int64_t timeout_us_;
   BackOff back_off_;
   EventLoop::TimerId exit_timer_;
-  std::int64_t alive_us_;      ///< when the device last gave a frame, or was opened
-  std::int64_t retry_us_ = 0;  ///< when to open again; holds while the device is closed
-  std::int64_t shown_until_us_ = 0;
-  std::string text_;  ///< room for sentences
+  std::int64_t alive_us_;            ///< time of the newest frame or of opening
+  std::int64_t retry_us_ = 0;        ///< time to open again; valid while the device is closed
+  std::int64_t shown_until_us_ = 0;  ///< end of the time for which a loss is shown
+  std::string text_;                 ///< storage for sentences
 };
 
 }  // namespace plumb

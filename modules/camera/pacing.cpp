@@ -19,7 +19,8 @@ std::int64_t Pacer::due_us(std::int64_t capture_us, std::int64_t now_us) {
 std::int64_t SequenceTracker::next(std::uint32_t driver_sequence) {
   std::int64_t step = 1;
   if (has_last_) {
-    // Modulo 2^32, so the wrap is an ordinary step; the upper half of the circle is "backwards".
+    // The difference is modulo 2^32, so the wrap is an ordinary step. A difference in the upper
+    // half is a step back.
     const std::uint32_t ahead = driver_sequence - last_driver_;
     constexpr std::uint32_t kHalf = 1U << 31;
     if (ahead != 0 && ahead < kHalf) step = ahead;

@@ -1,24 +1,27 @@
-/// When a recorded frame is due, and what a live camera's frame counter means. Pure functions of
-/// times.
+/// Schedules the frames of a recording, numbers the frames of a live camera and spaces the attempts
+/// to open a lost device.
 ///
-/// Units    [us] everywhere; `now_us` is any monotonic clock of the caller.
-/// Memory   a few numbers.
+/// Units:
+///   Times are in microseconds; `now_us` is any monotonic clock of the caller.
+/// Memory:
+///   A few numbers.
 #pragma once
 
 #include <cstdint>
 
 namespace plumb {
 
-/// Replays recorded times at `speed` times their pace. The schedule is anchored once, at the first
-/// frame, and never moved: a slow reader catches up, and the average pace holds. No frame is
-/// skipped.
+/// Schedules recorded frames at `speed` times their original rate. The schedule is anchored at the
+/// first frame and never moved, so that a slow reader catches up and the average rate is kept. No
+/// frame is skipped.
 class Pacer {
  public:
-  /// @pre speed >= 0; 0 is as fast as it goes
+  /// With a speed of 0 every frame is due at once.
+  /// @pre speed >= 0
   explicit Pacer(double speed) : speed_(speed) {}
 
-  /// Time on the caller's clock at which the frame captured at `capture_us` is to be published.
-  /// The first call anchors the schedule at `now_us`.
+  /// Time on the caller's clock at which the frame captured at `capture_us` is due. The first call
+  /// anchors the schedule at `now_us`.
   [[nodiscard]] std::int64_t due_us(std::int64_t capture_us, std::int64_t now_us);
 
  private:
@@ -28,17 +31,20 @@ class Pacer {
   std::int64_t first_due_us_ = 0;
 };
 
-/// Turns the driver's 32-bit frame counter into a sequence number that survives wrap and restart.
+/// Turns the driver's 32-bit frame counter into a sequence number that continues after a wrap and
+/// after a restart.
 class SequenceTracker {
  public:
-  /// Sequence number of the frame; +1 plus one per frame the driver dropped.
-  /// A counter that stands still or steps back counts as +1: some drivers do not keep one.
+  /// Sequence number of the next frame: one more than the last, plus one per frame that the driver
+  /// dropped. A counter that stands still or steps back counts as one step,
+  /// because some drivers do not count.
   [[nodiscard]] std::int64_t next(std::uint32_t driver_sequence);
 
-  /// The device was opened again: its counter starts over. `num_missed` frames are thought lost.
+  /// Tells that the device was opened again, so that its counter restarts.
+  /// `num_missed` frames are assumed lost.
   void restart(std::int64_t num_missed);
 
-  /// Frames missing so far by the driver's counter, restarts included.
+  /// Number of frames missing so far, including those lost at restarts.
   [[nodiscard]] std::int64_t num_missing() const { return num_missing_; }
 
  private:
@@ -48,7 +54,7 @@ class SequenceTracker {
   std::int64_t num_missing_ = 0;
 };
 
-/// Pause before the n-th attempt to open a lost device: min, 2 min, 4 min ... max.
+/// The pauses before attempts to open a lost device: min, 2 min, 4 min and so on up to max.
 class BackOff {
  public:
   /// @pre 0 < min_us
@@ -56,7 +62,7 @@ class BackOff {
 
   /// The pause before the next attempt.
   [[nodiscard]] std::int64_t next_us();
-  /// An attempt succeeded.
+  /// Tells that an attempt succeeded; the next pause is min again.
   void reset() { pause_us_ = 0; }
 
  private:

@@ -29,7 +29,7 @@ void PlayerNode::on_due() {
   process_.timer().begin();
   output_.publish(frame_);
   output_.show_fault();
-  load_next();  // read ahead, so that decoding is over before the frame is due
+  load_next();  // reading ahead finishes the decoding before the frame is due
   process_.timer().mark("read");
   process_.timer().end();
 }

@@ -1,4 +1,4 @@
-/// Plays a recording at its own pace times a speed, then ends the process.
+/// Plays a recording at a multiple of its original speed and then ends the process.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,12 @@ namespace plumb {
 
 class PlayerNode {
  public:
-  /// `speed` 0 is as fast as it goes. All three outlive the player.
+  /// With a `speed` of 0 the recording is played as fast as possible. `process`, `source` and
+  /// `output` outlive the player.
   PlayerNode(Process& process, RecordedSource& source, PublishNode& output, double speed);
 
  private:
-  /// Behind its schedule by this much a frame counts as late.
+  /// A frame that is published later than this after its scheduled time counts as late.
   static constexpr std::int64_t kLate_us = 100'000;
 
   void load_next();

@@ -1,4 +1,5 @@
-/// Grey frames in, CAMERA and CAMERA_CALIBRATION out, image faults into health.
+/// Publishes grey frames as CAMERA and CAMERA_CALIBRATION, and reports image faults in the health
+/// of the process.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +13,14 @@ namespace plumb {
 
 class PublishNode {
  public:
-  /// As CameraNode. Throws UsageError.
+  /// The arguments are those of CameraNode. Throws UsageError.
   PublishNode(Process& process, const CameraConfig& config, const std::filesystem::path& folder);
 
-  /// Publishes the frame; the calibration goes before the first one and then once a second of the
-  /// camera's time. Marks stages, up to "publish".
+  /// Publishes the frame. The calibration is published before the first frame and then once per
+  /// second of the camera's time. The last stage that this marks is "publish".
   void publish(const GreyFrame& frame);
 
-  /// What is wrong with the newest images becomes the health of the process.
+  /// Reports the fault of the newest images in the health of the process.
   void show_fault();
 
  private:

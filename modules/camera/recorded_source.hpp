@@ -1,4 +1,4 @@
-/// A recording that is played like a camera.
+/// The interface of recordings that are played like a camera.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,21 @@
 namespace plumb {
 
 struct GreyFrame {
-  std::int64_t capture_us = 0;  ///< mid-exposure, on the source's own clock
-  std::int64_t seq = 0;         ///< +1 per captured frame
-  ImageView image;              ///< until the source is asked again
+  std::int64_t capture_us = 0;  ///< mid-exposure time on the clock of the source
+  std::int64_t seq = 0;         ///< increases by one per captured frame
+  ImageView image;              ///< valid until the source's next call
 };
 
 class RecordedSource {
  public:
   virtual ~RecordedSource() = default;
 
-  /// Fills in what the recording knows about its camera and checks the rest against it.
-  /// Throws InputError when they contradict each other.
+  /// Completes `config` with what the recording knows about its camera. Throws InputError when the
+  /// two contradict each other.
   virtual void complete(CameraConfig* config) const = 0;
 
-  /// The next frame; false after the last. Throws InputError when the recording is damaged.
+  /// Reads the next frame. Returns false after the last.
+  /// Throws InputError when the recording is damaged.
   [[nodiscard]] virtual bool read(GreyFrame* frame) = 0;
 };
 

@@ -31,7 +31,7 @@ Point distort_fisheye(const Lens& lens, double x, double y) {
   return {x * scale, y * scale};
 }
 
-/// Derivative of the distorted radius by the undistorted one (fisheye: by the angle).
+/// Derivative of the distorted radius with respect to the undistorted one (fisheye: to the angle).
 double radial_slope(const Lens& lens, double r) {
   const bool is_fisheye = lens.model == LensModel::kFisheye;
   const double s = is_fisheye ? std::atan(r) : r;
@@ -41,7 +41,8 @@ double radial_slope(const Lens& lens, double r) {
   return 1.0 + s2 * k123;
 }
 
-/// Where the polynomial folds over: further out two rays share a pixel and the model does not hold.
+/// The radius at which the polynomial folds over. Beyond it two rays share a pixel, and the lens
+/// model is not valid.
 double fold_radius(const Lens& lens, double r_max) {
   constexpr int kSteps = 4096;
   for (int i = 1; i <= kSteps; ++i) {
@@ -55,7 +56,7 @@ bool same(const PinholePx& a, const PinholePx& b) {
   return a.fx_px == b.fx_px && a.fy_px == b.fy_px && a.cx_px == b.cx_px && a.cy_px == b.cy_px;
 }
 
-bool straight(const Lens& lens) {
+bool is_undistorted(const Lens& lens) {
   return lens.model == LensModel::kPlumbBob && lens.k1 == 0.0 && lens.k2 == 0.0 && lens.p1 == 0.0 &&
          lens.p2 == 0.0 && lens.k3 == 0.0;
 }
@@ -66,14 +67,13 @@ Rectifier::Rectifier(int width_px, int height_px, const PinholePx& captured, con
                      const PinholePx& published)
     : width_px_(width_px),
       height_px_(height_px),
-      identity_(straight(lens) && same(captured, published)),
+      identity_(is_undistorted(lens) && same(captured, published)),
       unseen_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), 0) {
   if (identity_) return;
   const double x_max = std::max(published.cx_px, width_px - published.cx_px) / published.fx_px;
   const double y_max = std::max(published.cy_px, height_px - published.cy_px) / published.fy_px;
   const double r_fold = fold_radius(lens, std::sqrt(x_max * x_max + y_max * y_max));
   taps_.reserve(unseen_.size());
-  std::size_t num_unseen = 0;
   for (int v = 0; v < height_px; ++v) {
     for (int u = 0; u < width_px; ++u) {
       const double x = (u - published.cx_px) / published.fx_px;
@@ -86,22 +86,20 @@ Rectifier::Rectifier(int width_px, int height_px, const PinholePx& captured, con
           u_in >= 0.0 && v_in >= 0.0 && u_in <= width_px - 1 && v_in <= height_px - 1;
       const bool seen = inside && x * x + y * y <= r_fold * r_fold;
       unseen_[taps_.size()] = seen ? 0 : 1;
-      num_unseen += seen ? 0U : 1U;
       taps_.push_back(tap_for(u_in, v_in));
     }
   }
-  unseen_ratio_ = static_cast<double>(num_unseen) / static_cast<double>(unseen_.size());
 }
 
 Rectifier::Tap Rectifier::tap_for(double u_px, double v_px) const {
-  const double u_held = std::clamp(u_px, 0.0, static_cast<double>(width_px_ - 1));
-  const double v_held = std::clamp(v_px, 0.0, static_cast<double>(height_px_ - 1));
-  // The last column is reached with weight 256 from the one before it, so no tap reads outside.
-  const int u = std::min(static_cast<int>(u_held), width_px_ - 2);
-  const int v = std::min(static_cast<int>(v_held), height_px_ - 2);
+  const double u_clamped = std::clamp(u_px, 0.0, static_cast<double>(width_px_ - 1));
+  const double v_clamped = std::clamp(v_px, 0.0, static_cast<double>(height_px_ - 1));
+  // The last column is reached from its neighbour with weight 256, so that no tap reads outside.
+  const int u = std::min(static_cast<int>(u_clamped), width_px_ - 2);
+  const int v = std::min(static_cast<int>(v_clamped), height_px_ - 2);
   return {static_cast<std::int16_t>(u), static_cast<std::int16_t>(v),
-          static_cast<std::uint16_t>(std::lround((u_held - u) * 256.0)),
-          static_cast<std::uint16_t>(std::lround((v_held - v) * 256.0))};
+          static_cast<std::uint16_t>(std::lround((u_clamped - u) * 256.0)),
+          static_cast<std::uint16_t>(std::lround((v_clamped - v) * 256.0))};
 }
 
 void Rectifier::apply(const ImageView& captured, std::uint8_t* out) const {
@@ -114,7 +112,8 @@ void Rectifier::apply(const ImageView& captured, std::uint8_t* out) const {
   for (; tap != end; ++tap, ++out) {
     const std::uint8_t* p = captured.data + tap->v * captured.stride_bytes + tap->u;
     const std::uint8_t* q = p + captured.stride_bytes;
-    // Both rows in one multiplication: the upper in bits 0..15, the lower in 16..31; 255*256 fits.
+    // One multiplication serves both rows: the upper row is in bits 0 to 15, the lower in 16 to 31,
+    // and 255 * 256 fits into 16 bits.
     const std::uint32_t left = p[0] | static_cast<std::uint32_t>(q[0]) << 16;
     const std::uint32_t right = p[1] | static_cast<std::uint32_t>(q[1]) << 16;
     const std::uint32_t rows = left * (256U - tap->wu) + right * tap->wu;

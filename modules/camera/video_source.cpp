@@ -12,7 +12,8 @@ namespace plumb {
 VideoSource::VideoSource(const std::string& file) : file_(file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) throw UsageError("cannot read " + file);
-  // The two that read files only; the others would take the name for a pipeline or a numbered series.
+  // These two backends read only files. Others would take the name for
+  // a pipeline or an image series.
   if (!capture_.open(file, cv::CAP_FFMPEG) && !capture_.open(file, cv::CAP_OPENCV_MJPEG))
     throw UsageError(file + ": is not a readable video");
   const double rate_hz = capture_.get(cv::CAP_PROP_FPS);

@@ -1,7 +1,10 @@
-/// A video file, in any container OpenCV reads.
+/// A video file as a recording, in any container that OpenCV reads.
 ///
-/// seq      the frame's index, from 0.
-/// Time     the file's own presentation times where they increase, else its nominal frame period.
+/// Sequence:
+///   The number of a frame is its index, from 0.
+/// Time:
+///   The presentation times of the file are used where they increase,
+///   else its nominal frame period.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +18,7 @@ namespace plumb {
 
 class VideoSource final : public RecordedSource {
  public:
-  /// Opens and reads the first frame. Throws UsageError.
+  /// Opens the file and reads the first frame. Throws UsageError.
   explicit VideoSource(const std::string& file);
 
   void complete(CameraConfig* config) const override;
@@ -27,7 +30,7 @@ class VideoSource final : public RecordedSource {
   std::string file_;
   cv::VideoCapture capture_;
   double period_us_ = 0.0;
-  std::int64_t seq_ = -1;  ///< of the frame in image_
+  std::int64_t seq_ = -1;  ///< number of the frame in image_
   std::int64_t capture_us_ = 0;
   bool first_is_loaded_ = false;
   cv::Mat colour_;

@@ -1,11 +1,11 @@
-/// All settings of all processes: one file serves them all, and a key that none of them owns is an
-/// error.
+/// The settings of all processes. One file serves them all,
+/// and a key that no module owns is an error.
 #pragma once
 
 #include "modules/camera/camera_config.hpp"
 #include "modules/can/can_config.hpp"
 #include "modules/detections/detections_config.hpp"
-#include "modules/detector/detect_config.hpp"
+#include "modules/detector/detector_config.hpp"
 #include "modules/ground/types/ground_config.hpp"
 #include "modules/mount/mount_config.hpp"
 #include "modules/objects/objects_config.hpp"
@@ -16,7 +16,7 @@ namespace plumb {
 struct PlumbConfig {
   CameraConfig camera;
   VoConfig vo;
-  DetectConfig detect;
+  DetectorConfig detect;
   DetectionsConfig detections;
   GroundConfig ground;
   MountConfig mount;
@@ -27,7 +27,7 @@ struct PlumbConfig {
   static void visit(Config& c, Visit&& field) {
     CameraConfig::visit(c.camera, field);
     VoConfig::visit(c.vo, field);
-    DetectConfig::visit(c.detect, field);
+    DetectorConfig::visit(c.detect, field);
     DetectionsConfig::visit(c.detections, field);
     GroundConfig::visit(c.ground, field);
     MountConfig::visit(c.mount, field);

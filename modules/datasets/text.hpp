@@ -1,4 +1,4 @@
-/// printf into a string.
+/// Formats like printf, into a string.
 #pragma once
 
 #include <string>

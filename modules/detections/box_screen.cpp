@@ -10,15 +10,15 @@ namespace {
 
 constexpr double kHorizonSigmas = 3.0;
 
-/// The distance comes from the object's size, which no error of the pitch touches; the horizon test
-/// leaves the pitch its deviation.
+/// The distance follows from the object's size, because an error of the pitch does not affect that.
+/// The horizon test allows for the standard deviation of the pitch.
 bool off_road(const DetectionsConfig& config, const CameraModel& camera, const RoadPlane& plane,
               const Detection& detection) {
   const Box& box = detection.box;
   RoadPlane near = plane;
   near.pitch_rad += kHorizonSigmas * std::sqrt(plane.cov(0, 0));
   const Eigen::Vector2d foot_px(box.centre_u_px(), box.bottom_px);
-  if (!back_project_foot(camera, near, foot_px, Eigen::Matrix2d::Zero())) return true;
+  if (!back_project_foot(camera, near, foot_px)) return true;
   const double distance_m =
       config.height_prior(detection.object_class).mean_m * camera.fy_px / box.height_px();
   const double lateral_m = distance_m * camera.to_normalized(foot_px).x();
@@ -31,7 +31,7 @@ BoxVerdict screen(const DetectionsConfig& config, const CameraModel& camera, con
   if (!(config.height_prior(d.object_class).mean_m > 0.0)) return BoxVerdict::kClassUnknown;
   if (d.score < config.min_score) return BoxVerdict::kLowScore;
   if (d.box.height_px() < config.min_box_height_px) return BoxVerdict::kTooSmall;
-  // A ratio that is not known compares false: then the border decides.
+  // An unknown ratio is NaN, which compares false, so that the border of the image decides.
   if (d.truncated_ratio > config.max_truncated_ratio ||
       cut_sides(camera, d.box, config.border_px).any()) {
     return BoxVerdict::kTruncated;

@@ -1,6 +1,8 @@
-/// Which boxes may speak about the road: whole, visible, standing on it and not too far off.
+/// Selects the boxes that tell something about the road: those that are whole, visible, on the road
+/// and not too far away.
 ///
-/// Frames   img as in detection.hpp; ground as in road_plane.hpp.
+/// Frames:
+///   img as in detection.hpp; ground as in road_plane.hpp.
 #pragma once
 
 #include <array>
@@ -15,28 +17,28 @@ namespace plumb {
 
 enum class BoxVerdict : std::int8_t {
   kUsed = 0,
-  kClassUnknown = 1,  ///< no height is known for it
+  kClassUnknown = 1,  ///< the class has no known height
   kLowScore = 2,
   kTooSmall = 3,
-  kTruncated = 4,     ///< said so, or the box ends at the image's border
-  kOccluded = 5,      ///< said so, or nearer boxes hide an edge
-  kOffRoad = 6,       ///< foot above the horizon, too far away or too far to the side
-  kAgainstPlane = 7,  ///< over time its height fits no object of its class that stands on the road
-  kOutlier = 8,       ///< contradicts the other boxes of this frame
-  kNoRoom = 9,
+  kTruncated = 4,     ///< the detector says so, or the box ends at the border of the image
+  kOccluded = 5,      ///< the detector says so, or nearer boxes hide an edge
+  kOffRoad = 6,       ///< the foot is above the horizon, too far away or too far to the side
+  kAgainstPlane = 7,  ///< its height over time fits no object of its class on the road
+  kOutlier = 8,       ///< the box contradicts the other boxes of its frame
+  kNoRoom = 9,        ///< the height filter has no slot left
 };
 
 using Verdicts = std::array<BoxVerdict, kMaxDetections>;
 
-/// Shares, 0 to 1, of a box's lower and upper edge that nearer boxes cover; nearer is whose own
-/// lower edge lies lower.
+/// Shares of a box's lower and upper edge that nearer boxes cover, in [0, 1]. The box with the
+/// lower bottom edge is the nearer one.
 struct HiddenEdges {
   double lower_ratio = 0.0;
   double upper_ratio = 0.0;
 };
 [[nodiscard]] HiddenEdges hidden_edges(const DetectionFrame& frame, std::size_t box);
 
-/// True when `box` ends within `border_px` of the image's border on that side.
+/// The sides on which a box ends within `border_px` of the image's border.
 struct CutSides {
   bool left = false;
   bool top = false;
@@ -46,8 +48,8 @@ struct CutSides {
 };
 [[nodiscard]] CutSides cut_sides(const CameraModel& camera, const Box& box, double border_px);
 
-/// kUsed or why not, for every detection of the frame. `plane` is what is expected before this frame;
-/// its covariance widens the horizon test.
+/// Decides for every detection of the frame whether it is used and, if not, why. `plane` is the
+/// prediction for this frame; its covariance widens the horizon test.
 void screen_boxes(const DetectionsConfig& config, const CameraModel& camera, const RoadPlane& plane,
                   const DetectionFrame& frame, Verdicts* verdicts);
 

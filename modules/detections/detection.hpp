@@ -1,7 +1,9 @@
-/// What a detector saw in one image: boxes, classes, scores and the raw boxes behind them.
+/// The detections of one image: boxes, classes, scores and the raw boxes behind them.
 ///
-/// Frames   img: u right, v down, (0,0) is the centre of the upper left pixel.
-/// Memory   kMaxDetections boxes in place.
+/// Frames:
+///   img: u right, v down; (0,0) is the centre of the upper left pixel.
+/// Memory:
+///   kMaxDetections detections in place.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +19,7 @@ namespace plumb {
 inline constexpr std::size_t kMaxDetections = 64;
 inline constexpr std::size_t kMaxCandidates = 16;
 
-/// Same numbers as detection_t.CLASS_*.
+/// The numbers are those of detection_t.CLASS_*.
 enum class ObjectClass : std::int8_t {
   kUnknown = 0,
   kCar = 1,
@@ -29,7 +31,7 @@ enum class ObjectClass : std::int8_t {
 };
 inline constexpr std::size_t kNumObjectClasses = 7;
 
-/// Same numbers as detection_t.occluded.
+/// The numbers are those of detection_t.occluded.
 enum class Occlusion : std::int8_t { kVisible = 0, kPartly = 1, kLargely = 2, kUnknown = 3 };
 
 struct Box {
@@ -43,7 +45,7 @@ struct Box {
   [[nodiscard]] double centre_u_px() const { return 0.5 * (left_px + right_px); }
 };
 
-/// Shared over common area, in [0, 1].
+/// Area of the intersection over area of the union, in [0, 1].
 [[nodiscard]] inline double intersection_over_union(const Box& a, const Box& b) {
   const double width = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
   const double height = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
@@ -52,18 +54,18 @@ struct Box {
   return both / (a.width_px() * a.height_px() + b.width_px() * b.height_px() - both);
 }
 
-/// One raw box of the detector before it suppressed its neighbours.
+/// One raw box of the detector, before non-maximum suppression.
 struct Candidate {
   Box box;
   double score = 0.0;
 };
 
 struct Detection {
-  std::int32_t track_id = -1;  ///< -1: the detector does not track
+  std::int32_t track_id = -1;  ///< -1 when the detector does not track
   ObjectClass object_class = ObjectClass::kUnknown;
   double score = 0.0;            ///< [0, 1]
   Box box;                       ///< not empty
-  double truncated_ratio = 0.0;  ///< 0 inside the image .. 1 outside; NaN when not known
+  double truncated_ratio = 0.0;  ///< share outside the image, 0 to 1; NaN when not known
   Occlusion occluded = Occlusion::kUnknown;
   FixedVector<Candidate, kMaxCandidates> candidates;
 };

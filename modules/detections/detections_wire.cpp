@@ -17,9 +17,9 @@ static_assert(same(ObjectClass::kCyclist, detection_t::CLASS_CYCLIST));
 static_assert(kMaxDetections == detections_t::MAX_DETECTIONS);
 static_assert(sizeof(detection_t::candidate_scores) / sizeof(float) == kMaxCandidates);
 
-constexpr double kFarthest_px = 1e5;  ///< no image is that large
+constexpr double kFarthest_px = 1e5;  ///< larger than any image
 
-/// False for a box that is empty, not finite or far outside any image.
+/// Reads a box. Returns false when it is empty, not finite or far outside any image.
 bool read_box(const float (&edges)[4], Box* box) {
   *box = {static_cast<double>(edges[0]), static_cast<double>(edges[1]),
           static_cast<double>(edges[2]), static_cast<double>(edges[3])};
@@ -70,7 +70,7 @@ const char* detection_from_wire(const detection_t& message, Detection* detection
   return candidates_from_wire(message, detection);
 }
 
-bool tracked_twice(const DetectionFrame& frame, std::int32_t track_id) {
+bool is_tracked_twice(const DetectionFrame& frame, std::int32_t track_id) {
   for (const Detection& other : frame.detections) {
     if (track_id >= 0 && other.track_id == track_id) return true;
   }
@@ -97,7 +97,7 @@ const char* from_wire(const detections_t& message, DetectionFrame* frame) {
   for (const detection_t& one : message.detections) {
     Detection detection;
     if (const char* why = detection_from_wire(one, &detection)) return why;
-    if (tracked_twice(*frame, detection.track_id)) return "detections: a track id comes twice";
+    if (is_tracked_twice(*frame, detection.track_id)) return "detections: a track id occurs twice";
     if (!frame->detections.push_back(detection)) return "detections: number is outside [0, 64]";
   }
   return nullptr;

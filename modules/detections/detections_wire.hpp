@@ -1,4 +1,4 @@
-/// detections_t <-> DetectionFrame. No LCM instance.
+/// Converts detections_t to DetectionFrame and back, without an LCM instance.
 #pragma once
 
 #include "modules/detections/detection.hpp"
@@ -6,11 +6,12 @@
 
 namespace plumb {
 
-/// Null, and `frame` filled, when the message keeps its contract; else why not. A contract is broken
-/// by one wrong box: a detector that errs once is not believed for the rest of the image.
+/// Fills `frame` and returns null when the message keeps its contract, and else returns the reason
+/// as a string literal. One wrong box makes the whole message invalid, because a detector that made
+/// one error cannot be trusted for the rest of the image.
 [[nodiscard]] const char* from_wire(const detections_t& message, DetectionFrame* frame);
 
-/// Allocates while `message` grows to the number of detections.
+/// Fills `message`. Allocates only while its list grows.
 void to_wire(const DetectionFrame& frame, detections_t* message);
 
 }  // namespace plumb

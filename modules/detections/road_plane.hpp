@@ -1,9 +1,11 @@
 /// The road under the camera as pitch, roll and height, with their covariance.
 ///
-/// Frames  cam: x right, y down, z forward. The normal points DOWN to the road, normal . X = height.
-///         ground: x forward, y left, z up, on the road under the camera; the camera looks along x.
-/// Angles  ISO 8855: pitch nose DOWN positive, roll right side down positive;
-///         normal = (cos p sin r, cos p cos r, sin p).
+/// Frames:
+///   cam: x right, y down, z forward. The normal points DOWN to the road: normal . X = height.
+///   ground: x forward, y left, z up, on the road under the camera; the camera looks along x.
+/// Angles:
+///   ISO 8855: pitch nose DOWN positive, roll right side down positive;
+///   normal = (cos p sin r, cos p cos r, sin p).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,16 +24,7 @@ struct RoadPlane {
             std::sin(pitch_rad)};
   }
 
-  /// Columns: d normal / d pitch, d normal / d roll.
-  [[nodiscard]] Eigen::Matrix<double, 3, 2> normal_jacobian() const {
-    const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad);
-    const double cr = std::cos(roll_rad), sr = std::sin(roll_rad);
-    Eigen::Matrix<double, 3, 2> J;
-    J << -sp * sr, cp * cr, -sp * cr, -cp * sr, cp, 0.0;
-    return J;
-  }
-
-  /// Rows are the ground axes in cam: forward, left, up.
+  /// Its rows are the ground axes in cam: forward, left and up.
   [[nodiscard]] Eigen::Matrix3d R_ground_cam() const {
     const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad);
     const double cr = std::cos(roll_rad), sr = std::sin(roll_rad);

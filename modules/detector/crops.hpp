@@ -1,4 +1,8 @@
-/// Squares cut out of a wide image, so that a network that takes squares sees small objects at their size.
+/// Divides a wide image into overlapping squares. A network with a square input then sees small
+/// objects at a larger scale than in the whole image.
+///
+/// Frames:
+///   Crops are in pixels of the image.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +21,13 @@ struct Crop {
 };
 using Crops = FixedVector<Crop, kMaxCrops>;
 
-/// `num_crops` squares, evenly over the longer side; 0: as many as it takes for neighbours to share a fifth.
+/// Places `num_crops` squares evenly along the longer side. When `num_crops` is 0, as many are
+/// placed as make neighbours overlap by a fifth.
 /// @pre sizes above 0
 [[nodiscard]] Crops make_crops(int width_px, int height_px, int num_crops);
 
-/// Whether a border of `crop` that is none of the image's cuts `box` (image pixels): the neighbour sees it whole.
+/// True when a border of `crop` inside the image cuts `box`.
+/// The neighbouring crop then sees all of it.
 [[nodiscard]] bool is_cut_by(const Crop& crop, const Box& box, int width_px, int height_px);
 
 }  // namespace plumb

@@ -7,7 +7,7 @@
 namespace plumb {
 
 void suppress(std::vector<RawBox>* raw, double overlap, DetectionFrame* frame) {
-  // Equal scores keep the network's order: the same input gives the same detections.
+  // A stable sort keeps the network's order of equal scores, so that results are deterministic.
   std::stable_sort(raw->begin(), raw->end(),
                    [](const RawBox& a, const RawBox& b) { return a.score > b.score; });
   frame->detections.clear();

@@ -1,7 +1,7 @@
-/// Many raw boxes of a detector -> one detection per object, each with the raw boxes behind it.
+/// Greedy non-maximum suppression: reduces the raw boxes of a detector to one detection per object.
 ///
-/// Source  greedy non-maximum suppression; what it suppresses is kept as the candidates of eq. (10), Song and Chandraker,
-///         CVPR 2014.
+/// Source:
+///   The suppressed boxes are kept as the candidates of eq. (10) of Song and Chandraker, CVPR 2014.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,10 @@ struct RawBox {
   ObjectClass object_class = ObjectClass::kUnknown;
 };
 
-/// Best first; boxes of one class that overlap a better one by `overlap` or more become its candidates (as many as fit,
-/// the better ones, the box itself among them). Sorts `raw`. Detections beyond the message's capacity are left out.
+/// Sorts `raw` by score and fills `frame`, best detection first. A box whose intersection over
+/// union with a better box of its class is at least `overlap` becomes a candidate of that box. The
+/// candidates of a detection include its own box and are limited to the best kMaxCandidates.
+/// Detections beyond the capacity of the message are dropped.
 void suppress(std::vector<RawBox>* raw, double overlap, DetectionFrame* frame);
 
 }  // namespace plumb

@@ -74,7 +74,7 @@ const char* plane_from_wire(const ground_plane_t& message, PlaneOutput* plane) {
                   std::isfinite(plane->pitch_rad) && std::isfinite(plane->roll_rad))) {
     return "ground plane: says that the plane holds, but it is none";
   }
-  if (!from_wire(message.cov, &plane->cov)) return "ground plane: not a covariance";
+  if (from_wire(message.cov, &plane->cov) != nullptr) return "ground plane: not a covariance";
   return cues_from_wire(message, plane);
 }
 
@@ -108,12 +108,12 @@ const char* ego_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   ego->status = static_cast<EgoStatus>(message.status);
   ego->reason = static_cast<VoReason>(message.reason);
   ego->reset_counter = message.reset_counter;
-  if (!from_wire(message.q_prev_cam, message.t_prev_cam_m, &ego->T_prev_cam) ||
-      !from_wire(message.q_world_cam, message.t_world_cam_m, &ego->T_world_cam)) {
+  if (from_wire(message.q_prev_cam, message.t_prev_cam_m, &ego->T_prev_cam) != nullptr ||
+      from_wire(message.q_world_cam, message.t_world_cam_m, &ego->T_world_cam) != nullptr) {
     return "ego motion: a pose is not a pose";
   }
-  if (!from_wire(message.cov_prev_cam, &ego->cov_prev_cam) ||
-      !from_wire(message.cov_world_cam, &ego->cov_world_cam)) {
+  if (from_wire(message.cov_prev_cam, &ego->cov_prev_cam) != nullptr ||
+      from_wire(message.cov_world_cam, &ego->cov_world_cam) != nullptr) {
     return "ego motion: not a covariance";
   }
   const char* why = rates_from_wire(message, ego);

@@ -9,7 +9,8 @@ namespace plumb {
 namespace {
 
 constexpr double kLeastSpeed_m_s = 4.0;
-// A camera ahead of the rear axle slips sideways in bends: 0.02 rad/s at 10 m/s turn yaw by 0.2 degrees.
+// In a turn, a camera ahead of the rear axle also moves sideways: at 10 m/s, 0.02 rad/s changes the
+// yaw angle by 0.2 degrees.
 constexpr double kStraight_rad_s = 0.02;
 constexpr double kEndOfAlarmRatio = 0.5;
 
@@ -43,21 +44,21 @@ const MountReport& MountCheck::update(const GroundOutput& ground) {
   const double step_m = t_m.norm();
   sum_ += step_m * Eigen::Vector3d(ground.plane.pitch_rad, ground.plane.roll_rad,
                                    std::atan2(t_m.x(), t_m.z()));
-  way_m_ += step_m;
-  if (way_m_ >= config_.stretch_m) end_stretch();
+  distance_m_ += step_m;
+  if (distance_m_ >= config_.stretch_m) end_stretch();
   if (!report_.reference) {
     const double needed = config_.num_stretches;
-    const double gathered = static_cast<double>(num_stretches_) + way_m_ / config_.stretch_m;
+    const double gathered = static_cast<double>(num_stretches_) + distance_m_ / config_.stretch_m;
     report_.progress = std::min(1.0, gathered / needed);
   }
   return report_;
 }
 
 void MountCheck::end_stretch() {
-  stretches_[num_stretches_ % kMaxStretches] = sum_ / way_m_;
+  stretches_[num_stretches_ % kMaxStretches] = sum_ / distance_m_;
   ++num_stretches_;
   sum_.setZero();
-  way_m_ = 0.0;
+  distance_m_ = 0.0;
   const std::size_t num_recent = std::min(num_stretches_, kNumRecent);
   report_.recent_rad = mean(num_recent);
   const auto needed = static_cast<std::size_t>(config_.num_stretches);

@@ -1,10 +1,12 @@
-/// Watches how the camera sits on its vehicle: a reference out of the first straight stretches, then
-/// an alarm when the camera no longer sits like that. Height is not watched: it is what the scale
-/// is made of.
+/// Monitors the orientation of the camera on its vehicle. The first straight stretches of road give
+/// a reference; an alarm is raised when the orientation later differs from it. The height is not
+/// monitored, because the metric scale is derived from it.
 ///
-/// Angles  (pitch, roll, yaw) [rad]: pitch and roll of the camera against the road, nose and right
-///         side down positive; yaw positive when it looks left of the direction of travel.
-/// Memory  a ring of stretches in place; nothing grows.
+/// Angles:
+///   (pitch, roll, yaw) [rad]: pitch and roll of the camera against the road, nose and right side
+///   down positive; yaw positive when the camera looks left of the direction of motion.
+/// Memory:
+///   A ring buffer of stretches in place. Nothing is allocated.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,10 +20,10 @@
 
 namespace plumb {
 
-/// Same numbers as mount_t.STATUS_*.
+/// The numbers are those of mount_t.STATUS_*.
 enum class MountStatus : std::int8_t { kCollecting = 0, kUnsteady = 1, kSteady = 2, kMoved = 3 };
 
-/// Same numbers as mount_t.REASON_*.
+/// The numbers are those of mount_t.REASON_*.
 enum class MountReason : std::int8_t {
   kNone = 0,
   kNoMotion = 1,
@@ -42,22 +44,22 @@ struct MountReport {
   double progress = 0.0;
   int num_stretches = 0;
   std::optional<MountReference> reference;
-  Eigen::Vector3d recent_rad;  ///< NaN before the first stretch
-  Eigen::Vector3d spread_rad;  ///< NaN before the second
+  Eigen::Vector3d recent_rad;  ///< mean of the newest stretches; NaN before the first
+  Eigen::Vector3d spread_rad;  ///< standard deviation of stretches; NaN before the second
 };
 
-/// One `update` per ground result, in order. Deterministic.
+/// Takes one update() per ground result, in order. Deterministic.
 class MountCheck {
  public:
   static constexpr std::size_t kMaxStretches = 64;
   static constexpr std::size_t kNumRecent = 4;
 
-  /// @pre config inside the ranges of its visit()
+  /// @pre the settings are inside the ranges of visit()
   explicit MountCheck(const MountConfig& config);
 
-  /// Goes on from a reference that an earlier run made.
+  /// Continues with a reference that an earlier run made.
   void restore(const MountReference& reference);
-  /// The report stays valid until the next call.
+  /// Adds a ground result. The report is valid until the next call.
   const MountReport& update(const GroundOutput& ground);
   [[nodiscard]] const MountReport& report() const { return report_; }
 
@@ -65,16 +67,17 @@ class MountCheck {
   void end_stretch();
   void make_reference();
   void judge();
-  /// Of the newest `count` stretches.
+  /// Mean of the newest `count` stretches.
   [[nodiscard]] Eigen::Vector3d mean(std::size_t count) const;
+  /// Standard deviation of the newest `count` stretches.
   [[nodiscard]] Eigen::Vector3d spread(std::size_t count) const;
   [[nodiscard]] const Eigen::Vector3d& newest(std::size_t back) const;
 
   MountConfig config_;
   std::array<Eigen::Vector3d, kMaxStretches> stretches_;
-  std::size_t num_stretches_ = 0;  ///< ever
+  std::size_t num_stretches_ = 0;  ///< since construction
   Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
-  double way_m_ = 0.0;
+  double distance_m_ = 0.0;
   MountReport report_;
 };
 

@@ -1,4 +1,4 @@
-/// Every setting of the mount check; visit() is the one list of keys, ranges and meanings.
+/// Every setting of the mount check; visit() is the only list of keys, ranges and meanings.
 #pragma once
 
 #include <string>
@@ -15,15 +15,18 @@ struct MountConfig {
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
     field("mount.stretch_m", c.stretch_m, 5.0, 1000.0,
-          "way on a straight road over which one look at the mount is averaged");
-    field("mount.num_stretches", c.num_stretches, 4, 64, "stretches that make the reference");
+          "distance travelled on a straight road over which one measurement of the mount is "
+          "averaged");
+    field("mount.num_stretches", c.num_stretches, 4, 64,
+          "number of such stretches that make the reference");
     field("mount.max_spread_rad", c.max_spread_rad, 0.001, 0.1,
-          "stretches that scatter by more (1-sigma) make no reference");
+          "no reference is made when the standard deviation among the stretches is larger");
     field("mount.alarm_rad", c.alarm_rad, 0.002, 0.2,
-          "the camera has moved when pitch, roll or yaw is off the reference by more; at half of "
-          "it the alarm ends");
+          "the camera has moved when pitch, roll or yaw differs from the reference by more; the "
+          "alarm ends at half of it");
     field("mount.state_file", c.state_file,
-          "keeps the reference over restarts; delete it after work on the camera; empty: none");
+          "file that keeps the reference over restarts; delete it after work on the camera; empty: "
+          "no file");
   }
 };
 

@@ -17,7 +17,7 @@ MountNode::MountNode(const MountConfig& config) : state_file_(config.state_file)
   try {
     check_.restore(load_mount_reference(state_file_));
   } catch (const ConfigError& error) {
-    log_line("%s; a new reference is made", error.what());
+    log_line("%s; a new reference will be made", error.what());
   }
 }
 

@@ -1,5 +1,5 @@
-/// Everything plumb-ground does about the mount between the chain's results and MOUNT: the check, its message once a
-/// second, its file and its word in the process's health.
+/// Everything that plumb-ground does about the mount: the check, its message MOUNT, its state file
+/// and its sentence in the health of the process.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,16 @@ class MountNode {
  public:
   static constexpr std::int64_t kPeriod_us = 1'000'000;
 
-  /// Goes on from the state file where there is a sound one. A damaged file is said on stderr and replaced: the
-  /// vehicle drives on without it.
+  /// Continues with the reference of the state file when it has a valid one. A damaged file is
+  /// logged, and the next reference replaces it: the vehicle can drive without it.
   explicit MountNode(const MountConfig& config);
 
-  /// One result of the chain. The message to publish, once a second and when the status changes; else null.
+  /// Takes one ground result. Returns the message to publish, once a second and when the status
+  /// changes, and else null.
   const mount_t* update(const GroundOutput& ground);
   [[nodiscard]] const MountReport& report() const { return check_.report(); }
-  /// Why the process is degraded, by the angles of the newest message; null while the camera has not moved.
+  /// The reason why the process is degraded, with the angles of the newest message. Null while the
+  /// camera has not moved.
   [[nodiscard]] const char* alarm() const;
 
  private:

@@ -19,18 +19,19 @@ void visit(MountReference& r, Visit&& field) {
   std::string schema = kSchema;
   int version = kVersion;
   field("mount_reference.schema", schema, {kSchema}, "what this file is");
-  field("mount_reference.version", version, kVersion, kVersion, "of the schema");
-  field("mount_reference.num_stretches", r.num_stretches, 1, 1'000'000, "straight stretches seen");
+  field("mount_reference.version", version, kVersion, kVersion, "version of the schema");
+  field("mount_reference.num_stretches", r.num_stretches, 1, 1'000'000,
+        "number of straight stretches measured");
   const auto angle = [&](const char* mean, const char* std, int i, const char* meaning) {
     field(mean, r.mean_rad(i), -kMost_rad, kMost_rad, meaning);
-    field(std, r.std_rad(i), 0.0, kMost_rad, "1-sigma of that");
+    field(std, r.std_rad(i), 0.0, kMost_rad, "standard deviation of it");
   };
   angle("mount_reference.pitch_rad", "mount_reference.pitch_std_rad", 0,
         "against the road, nose down positive");
   angle("mount_reference.roll_rad", "mount_reference.roll_std_rad", 1,
         "against the road, right side down positive");
   angle("mount_reference.yaw_rad", "mount_reference.yaw_std_rad", 2,
-        "against the direction of travel, looking left positive");
+        "against the direction of motion, looking left positive");
 }
 
 }  // namespace
@@ -49,8 +50,9 @@ void save_mount_reference(const std::string& path, const MountReference& referen
   visit(out, writer);
   const std::string part = path + ".part";
   std::ofstream file(part);
-  file << "# How the camera sat on its vehicle. Written by plumb-ground; delete it after work on "
-          "it.\n"
+  file << "# Orientation of the camera on its vehicle. Written by plumb-ground; delete it after "
+          "work "
+          "on the camera.\n"
        << writer.sections();
   file.close();
   if (!file || std::rename(part.c_str(), path.c_str()) != 0) {

@@ -1,4 +1,5 @@
-/// The mount's reference in a file: TOML, one schema and version, every number there and in its range.
+/// Reads and writes the reference of the mount as TOML with a schema and a version. Every number
+/// must be present and in its range.
 #pragma once
 
 #include <string>
@@ -7,11 +8,12 @@
 
 namespace plumb {
 
-/// Throws ConfigError ("FILE:LINE: ...") for a file that cannot be read, is of another schema or
-/// version, lacks a number or has one out of range.
+/// Throws ConfigError ("FILE:LINE: ...") for a file that cannot be read, has another schema or
+/// version, lacks a number or has a number out of range.
 [[nodiscard]] MountReference load_mount_reference(const std::string& path);
 
-/// Whole or not at all: a power cut leaves the old file. Throws InputError when it cannot be written.
+/// Replaces the file as a whole, so that a power cut leaves the old file. Throws InputError when it
+/// cannot be written.
 void save_mount_reference(const std::string& path, const MountReference& reference);
 
 }  // namespace plumb

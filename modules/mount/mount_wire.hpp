@@ -1,4 +1,4 @@
-/// MountReport -> mount_t. No LCM instance.
+/// Converts MountReport to mount_t, without an LCM instance.
 #pragma once
 
 #include <cstdint>

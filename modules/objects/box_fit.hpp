@@ -1,7 +1,11 @@
-/// Fits a 3D box on the road to an image box: the most probable state under a Gaussian prior.
+/// Fits a 3D box on the road to an image box. The result is the state of maximum posterior
+/// probability under a Gaussian prior.
 ///
-/// Source   Song and Chandraker, CVPR 2014, section 3: pitch and roll from the plane, prior on
-///          length to width, reprojection to the tracked 2D box.
+/// Frames:
+///   ground as in cuboid.hpp; img as in detection.hpp.
+/// Source:
+///   Song and Chandraker, CVPR 2014, section 3: pitch and roll from the plane, prior on length to
+///   width, reprojection to the tracked 2D box.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,20 +17,22 @@
 
 namespace plumb {
 
-/// State and covariance; prior in, posterior out.
+/// A state and its covariance.
 struct StateEstimate {
   StateVector x = StateVector::Zero();
   StateMatrix P = StateMatrix::Zero();
 };
 
 struct MeasuredBox {
-  Eigen::Vector4d edges_px = Eigen::Vector4d::Zero();  ///< left, top, right, lower
-  Eigen::Vector4d var_px2 = Eigen::Vector4d::Ones();   ///< per edge
-  /// The image ends here, the object may go on: the edge counts only against solutions inside it.
+  Eigen::Vector4d edges_px = Eigen::Vector4d::Zero();  ///< left, top, right, bottom
+  Eigen::Vector4d var_px2 = Eigen::Vector4d::Ones();   ///< variance of each edge
+  /// True where the image cuts the object. Such an edge is a bound: it has an effect only on
+  /// solutions that end inside it.
   std::array<bool, 4> cut{};
 };
 
-/// How far inside its outline an object touches the road.
+/// Distance inside the outline of an object at which it touches the road,
+/// and its standard deviation.
 struct Contact {
   double inset_m = 0.0;
   double inset_std_m = 0.0;
@@ -35,13 +41,17 @@ struct Contact {
 struct BoxFitResult {
   bool ok = false;
   StateEstimate estimate;
-  double chi2 = 0.0;     ///< of the box against the prior, before anything loses weight
-  double log_det = 0.0;  ///< of the covariance that chi2 is measured with [ln px^8]
-  double cost = 0.0;  ///< the same about the solution, with the weights: compares fits of one box
+  /// Squared Mahalanobis distance of the box from the prediction of the prior,
+  /// without robust weights.
+  double chi2 = 0.0;
+  double log_det = 0.0;  ///< [ln px^8] log determinant of the covariance in chi2
+  /// Squared Mahalanobis distance at the solution with robust weights.
+  /// It compares the fits of one box.
+  double cost = 0.0;
 };
 
-/// Iterated Kalman update. Edges that disagree with the rest lose weight (Student's t). Not ok when
-/// the object cannot be seen from here or the result is not finite; the prior then stands.
+/// Performs an iterated Kalman update in which outlying edges get less weight (Student's t). The
+/// result is not ok when the object is not in front of the camera or the state is not finite.
 [[nodiscard]] BoxFitResult fit_box(const CameraModel& camera, const RoadPlane& plane,
                                    const Contact& contact, const MeasuredBox& box,
                                    const StateEstimate& prior);

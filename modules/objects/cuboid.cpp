@@ -9,15 +9,15 @@ namespace {
 
 constexpr double kNearest_m = 0.5;
 
-/// One of the points that bound the cuboid's image.
+/// A corner of the cuboid and its pixel.
 struct Corner {
-  double side_x = 0.0, side_y = 0.0;  ///< +-1
-  bool inset = false;
-  bool roof = false;
+  double side_x = 0.0, side_y = 0.0;  ///< +1 or -1
+  bool inset = false;                 ///< true for a point of contact with the road
+  bool roof = false;                  ///< true for an upper corner
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
 };
 
-/// Everything about the view that the corners share.
+/// The geometry that all corners share.
 class View {
  public:
   View(const CameraModel& camera, const RoadPlane& plane, const StateVector& state, double inset_m)
@@ -41,7 +41,8 @@ class View {
     inset_m_ = inset_m;
   }
 
-  /// Where the corner is in cam; false when that is not in front of the camera. Fills its pixel.
+  /// Computes the corner's position in cam and its pixel. Returns false when the corner is not in
+  /// front of the camera.
   bool place(Corner* corner, Eigen::Vector3d* p_cam) const {
     *p_cam = middle_ + along(*corner) * along_axis_ + across(*corner) * across_axis_;
     if (corner->roof) *p_cam += height_ * up_;
@@ -50,15 +51,15 @@ class View {
     return true;
   }
 
-  /// Writes the derivatives of the corner's u (axis 0) or v (1) into row `edge` of `seen`.
-  void derive(Corner corner, int axis, int edge, SeenCuboid* seen) const {
+  /// Writes the derivatives of the corner's u (axis 0) or v (axis 1) to row `edge` of `out`.
+  void derive(Corner corner, int axis, int edge, ProjectedCuboid* out) const {
     Eigen::Vector3d p_cam;
     place(&corner, &p_cam);
     const Eigen::RowVector3d J_px = pixel_jacobian(p_cam).row(axis);
-    // From the camera, in ground axes.
+    // The corner relative to the camera, in ground axes.
     const Eigen::Vector3d q(forward_.dot(p_cam), left_.dot(p_cam), up_.dot(p_cam));
     const double by_ratio = J_px.dot(along_axis_) * corner.side_x * half_length_;
-    auto J = seen->J_state.row(edge);
+    auto J = out->J_state.row(edge);
     J.setZero();
     J(kX) = J_px.dot(forward_);
     J(kY) = J_px.dot(left_);
@@ -66,13 +67,13 @@ class View {
     J(kLogRatio) = by_ratio;
     J(kLogWidth) = by_ratio + J_px.dot(across_axis_) * corner.side_y * half_width_;
     J(kLogHeight) = corner.roof ? height_ * J_px.dot(up_) : 0.0;
-    seen->J_inset(edge) =
+    out->J_inset(edge) =
         corner.inset ? -J_px.dot(corner.side_x * along_axis_ + corner.side_y * across_axis_) : 0.0;
     J(kPlaneError) = J_px.dot(q.x() * up_ - q.z() * forward_);
-    seen->J_plane(edge, 0) = J(kPlaneError);
-    seen->J_plane(edge, 1) =
+    out->J_plane(edge, 0) = J(kPlaneError);
+    out->J_plane(edge, 1) =
         J_px.dot(q.x() * forward_by_roll_ + q.y() * left_by_roll_ + q.z() * up_by_roll_);
-    seen->J_plane(edge, 2) = -camera_height_m_ * J_px.dot(up_);
+    out->J_plane(edge, 2) = -camera_height_m_ * J_px.dot(up_);
   }
 
  private:
@@ -98,14 +99,14 @@ class View {
   Eigen::Vector3d along_axis_, across_axis_, middle_;
 };
 
-/// The outermost corner seen so far on each edge: left, top, right, lower.
+/// The outermost corner so far at each edge: left, top, right, bottom.
 struct Outline {
   std::array<Corner, 4> corners;
   bool empty = true;
 
   void stretch(int edge, int axis, double sign, const Corner& corner) {
-    Corner& held = corners[static_cast<std::size_t>(edge)];
-    if (empty || sign * corner.px(axis) > sign * held.px(axis)) held = corner;
+    Corner& outermost = corners[static_cast<std::size_t>(edge)];
+    if (empty || sign * corner.px(axis) > sign * outermost.px(axis)) outermost = corner;
   }
 };
 
@@ -113,8 +114,8 @@ constexpr std::array<int, 4> kAxis{0, 1, 0, 1};
 
 }  // namespace
 
-std::optional<SeenCuboid> see_cuboid(const CameraModel& camera, const RoadPlane& plane,
-                                     const StateVector& state, double contact_inset_m) {
+std::optional<ProjectedCuboid> project_cuboid(const CameraModel& camera, const RoadPlane& plane,
+                                              const StateVector& state, double contact_inset_m) {
   const View view(camera, plane, state, contact_inset_m);
   Outline outline;
   for (const double side_x : {-1.0, 1.0}) {
@@ -136,13 +137,13 @@ std::optional<SeenCuboid> see_cuboid(const CameraModel& camera, const RoadPlane&
       outline.stretch(2, 0, 1.0, high);
     }
   }
-  SeenCuboid seen;
+  ProjectedCuboid projected;
   for (int edge = 0; edge < 4; ++edge) {
     const auto i = static_cast<std::size_t>(edge);
-    seen.edges_px(edge) = outline.corners[i].px(kAxis[i]);
-    view.derive(outline.corners[i], kAxis[i], edge, &seen);
+    projected.edges_px(edge) = outline.corners[i].px(kAxis[i]);
+    view.derive(outline.corners[i], kAxis[i], edge, &projected);
   }
-  return seen;
+  return projected;
 }
 
 }  // namespace plumb

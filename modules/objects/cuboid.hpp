@@ -1,7 +1,9 @@
-/// A box-shaped object on the road, and the image box it is seen in.
+/// The state of a box-shaped object on the road and its projection to an image box.
 ///
-/// Frames  ground: x forward, y left, z up, on the road under the camera; yaw about z, left positive.
-/// Units   SI, pixels for image boxes.
+/// Frames:
+///   ground: x forward, y left, z up, on the road under the camera; yaw about z, left positive.
+/// Units:
+///   SI, and pixels for image boxes.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +25,7 @@ enum StateRow : int {
   kLogWidth = 5,
   kLogRatio = 6,  ///< ln(length / width)
   kLogHeight = 7,
-  kPlaneError = 8,  ///< [rad] pitch of the road where the object stands, less the plane's
+  kPlaneError = 8,  ///< [rad] pitch of the road under the object minus the pitch of the plane
   kStateSize = 9,
 };
 using StateVector = Eigen::Matrix<double, kStateSize, 1>;
@@ -35,8 +37,8 @@ using StateMatrix = Eigen::Matrix<double, kStateSize, kStateSize>;
 }
 [[nodiscard]] inline double height_of(const StateVector& x) { return std::exp(x(kLogHeight)); }
 
-/// Left, top, right and lower edge, and what they depend on.
-struct SeenCuboid {
+/// The left, top, right and bottom edge of a cuboid's image, and their Jacobians.
+struct ProjectedCuboid {
   Eigen::Vector4d edges_px = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 4, kStateSize> J_state = Eigen::Matrix<double, 4, kStateSize>::Zero();
   Eigen::Matrix<double, 4, 3> J_plane =
@@ -44,11 +46,12 @@ struct SeenCuboid {
   Eigen::Vector4d J_inset = Eigen::Vector4d::Zero();  ///< (contact inset)
 };
 
-/// The outermost corners of the cuboid in the image. The lower edge is that of the contact points,
-/// which lie `contact_inset_m` inside the outline. Nothing when a corner is not in front of the
-/// camera.
-[[nodiscard]] std::optional<SeenCuboid> see_cuboid(const CameraModel& camera,
-                                                   const RoadPlane& plane, const StateVector& state,
-                                                   double contact_inset_m);
+/// Projects the cuboid; its outermost corners determine the edges. The bottom edge is that of the
+/// points of contact, which are `contact_inset_m` inside the outline. Returns nothing when a corner
+/// is not in front of the camera.
+[[nodiscard]] std::optional<ProjectedCuboid> project_cuboid(const CameraModel& camera,
+                                                            const RoadPlane& plane,
+                                                            const StateVector& state,
+                                                            double contact_inset_m);
 
 }  // namespace plumb

@@ -1,83 +1,63 @@
-/// One object followed over frames: two Kalman filters over its 3D box on the road, one for an
-/// object that moves and one for an object that stands, weighed by how well each foretells the next
-/// box. What stands is seen from ever new places, so its distance follows from the camera's way.
+/// One object that is tracked over frames.
 ///
-/// Frames  ground of the newest image: x forward, y left, z up, on the road under the camera.
-/// Memory  three states of 9 and their covariances.
+/// Two extended Kalman filters estimate its 3D box on the road: one for a moving object and one for
+/// a stationary object. How well each predicts the next box decides their odds, and the estimate is
+/// their mixture. The stationary filter measures the distance from the camera's own motion,
+/// by triangulation.
+///
+/// Frames:
+///   ground of the newest image: x forward, y left, z up, on the road under the camera.
+/// Memory:
+///   Three states of dimension 9 with their covariances.
 #pragma once
 
-#include <cstdint>
-
-#include "core/camera_model.hpp"
 #include "modules/detections/detection.hpp"
-#include "modules/detections/detections_config.hpp"
 #include "modules/objects/box_fit.hpp"
-#include "modules/objects/objects_config.hpp"
+#include "modules/objects/track_view.hpp"
 
 namespace plumb {
 
-/// How the ground axes moved from one image to the next.
-struct GroundMotion {
-  double dt_s = 0.0;
-  /// False: the camera's motion is not known, t_m and yaw_rad do not hold, and velocities are
-  /// relative to it.
-  bool known = false;
-  Eigen::Vector2d t_m = Eigen::Vector2d::Zero();  ///< new origin in old axes
-  double yaw_rad = 0.0;                           ///< new axes against old, left positive
-};
-
-/// Everything a track needs to read a box.
-struct TrackView {
-  const DetectionsConfig& detections;
-  const ObjectsConfig& objects;
-  const CameraModel& camera;
-  RoadPlane plane;
-};
-
 class ObjectTrack {
  public:
-  /// Begins with the best of several headings. False when the box fits no object on this road.
+  /// Starts the track with the best of several headings. Returns false when the box fits no object
+  /// on this road.
   bool start(const TrackView& view, const Detection& detection, const MeasuredBox& box);
 
-  /// To the next image.
+  /// Predicts the state for the next image.
   void predict(const TrackView& view, const GroundMotion& motion);
-  /// Takes the box of this track in this image. False when it fits badly: the track keeps its
-  /// prediction, or begins anew when boxes went on not to fit.
+  /// Corrects the state with the box of this object. Returns false when the box does not fit; the
+  /// track then keeps its prediction. After several consecutive misfits it restarts with the box.
   bool correct(const TrackView& view, const Detection& detection, const MeasuredBox& box);
-  /// Mean and covariance of both filters together.
+  /// Mean and covariance of the mixture of both filters.
   [[nodiscard]] const StateEstimate& estimate() const { return estimate_; }
   [[nodiscard]] ObjectClass object_class() const { return object_class_; }
-  /// Velocities are over ground; else relative to the camera.
+  /// True when velocities are over ground, false when they are relative to the camera.
   [[nodiscard]] bool over_ground() const { return over_ground_; }
 
  private:
-  [[nodiscard]] StateEstimate prior(const TrackView& view, const Detection& detection,
-                                    const MeasuredBox& box, double yaw_rad) const;
-
-  /// Odds and survival of the two filters after a box was fitted to both. False: it fits neither.
-  bool weigh(const BoxFitResult& moving, const BoxFitResult& standing);
-  /// Heading of the moving filter from its velocity over ground, where there is one.
+  /// Updates the two filters and their odds with the fits of a box.
+  /// Returns false when it fits neither.
+  bool update_hypotheses(const BoxFitResult& moving, const BoxFitResult& stationary);
+  /// Corrects the heading of the moving filter with its velocity over ground,
+  /// when it is fast enough.
   void align_with_motion();
-  /// The object may stand: what the moving filter would hold if it did.
-  void seed_standing();
+  /// Initialises the stationary filter with the moving one, conditioned on zero velocity.
+  void init_stationary();
+  /// Sets the estimate to the mean and covariance of the mixture.
   void mix();
 
   StateEstimate estimate_;
   StateEstimate moving_;
-  StateEstimate standing_;
-  double standing_log_odds_ = 0.0;
-  double unweighed_s_ = 0.0;  ///< since the odds last heard of a box
+  StateEstimate stationary_;
+  double stationary_log_odds_ = 0.0;
+  double since_update_s_ = 0.0;  ///< time since the odds were updated
   ObjectClass object_class_ = ObjectClass::kUnknown;
   bool over_ground_ = false;
-  bool fresh_ = true;         ///< since the start: velocities are those of the prior
-  double heading_rad_ = 0.0;  ///< the heading that the start preferred
-  bool was_whole_ = false;    ///< since the start
-  int num_misfits_ = 0;       ///< in a row
-  int num_other_class_ = 0;   ///< in a row
+  bool fresh_ = true;         ///< no prediction since the start: velocities are the prior
+  double heading_rad_ = 0.0;  ///< the heading that the track started with
+  bool was_whole_ = false;    ///< the box of the start was whole
+  int num_misfits_ = 0;       ///< consecutive boxes that did not fit
+  int num_other_class_ = 0;   ///< consecutive boxes of another class
 };
-
-/// The box of a detection with the deviation of each edge: the detector's, larger for a hidden edge.
-[[nodiscard]] MeasuredBox measured_box(const DetectionsConfig& config, const CameraModel& camera,
-                                       const DetectionFrame& frame, std::size_t index);
 
 }  // namespace plumb

@@ -4,16 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "core/numbers.hpp"
 #include "modules/detections/box_screen.hpp"
+#include "modules/objects/object_prior.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr double kLeastClosing_m_s = 0.3;
 constexpr double kNearestRange_m = 0.5;
-constexpr double kMostRangeRatio = 1.5;  ///< of the distance at which boxes are still used
-constexpr double kPartlyHidden = 0.25;
+constexpr double kMostRangeRatio = 1.5;  ///< relative to the distance up to which boxes are used
+constexpr double kPartlyHidden = 0.25;   ///< share of an edge that makes a box count as hidden
 
 Box box_of(const Eigen::Vector4d& edges_px) {
   return {edges_px(0), edges_px(1), edges_px(2), edges_px(3)};
@@ -21,39 +20,10 @@ Box box_of(const Eigen::Vector4d& edges_px) {
 
 double range_of(const StateEstimate& estimate) { return estimate.x.head<2>().norm(); }
 
-/// A new object's distance from its size alone, to compare it with those that are tracked.
+/// Estimates a new object's distance from its size alone, to compare it with tracked objects.
 double rough_range_m(const TrackView& view, const Detection& detection) {
-  const HeightPrior known = view.detections.height_prior(detection.object_class);
-  const double height_m = known.mean_m > 0.0 ? known.mean_m : view.objects.unknown_height_m;
+  const double height_m = height_prior(view, detection.object_class).mean_m;
   return height_m * view.camera.fy_px / detection.box.height_px();
-}
-
-Eigen::Vector3d size_std_of(const StateMatrix& P, const Eigen::Vector3d& size_m) {
-  const double length_var =
-      P(kLogWidth, kLogWidth) + P(kLogRatio, kLogRatio) + 2.0 * P(kLogWidth, kLogRatio);
-  return size_m.cwiseProduct(Eigen::Vector3d(std::sqrt(length_var),
-                                             std::sqrt(P(kLogWidth, kLogWidth)),
-                                             std::sqrt(P(kLogHeight, kLogHeight))));
-}
-
-/// Range over closing speed of the middle of the footprint.
-double time_to_collision(const StateEstimate& estimate, const GroundMotion& motion,
-                         bool over_ground) {
-  Eigen::Vector2d closing_m_s = estimate.x.segment<2>(kVelocityX);
-  if (over_ground && motion.dt_s > 0.0) closing_m_s -= motion.t_m / motion.dt_s;
-  const double range_m = range_of(estimate);
-  const double rate_m_s = estimate.x.head<2>().dot(closing_m_s) / range_m;
-  return rate_m_s < -kLeastClosing_m_s ? range_m / -rate_m_s : kNan;
-}
-
-/// Of the position, with what never averages out: the plane's height scales all positions together, and a body's shape
-/// moves it across the line of sight.
-Eigen::Matrix2d position_cov(const StateEstimate& estimate, const TrackView& view) {
-  const Eigen::Vector2d position_m = estimate.x.head<2>();
-  const Eigen::Vector2d across = Eigen::Vector2d(-position_m.y(), position_m.x()).normalized();
-  return estimate.P.topLeftCorner<2, 2>() +
-         view.plane.cov(2, 2) * position_m * position_m.transpose() +
-         view.objects.side_std_m * view.objects.side_std_m * across * across.transpose();
 }
 
 }  // namespace
@@ -72,11 +42,11 @@ const ObjectsOutput& ObjectTracker::update(const ObjectsInput& input) {
   for (std::size_t i = 0; i < frame.detections.size(); ++i) {
     if (frame.detections[i].score < detections_.min_score) continue;
     std::size_t slot = matches[i];
-    if (slot == kNone) slot = room_for(view, frame.detections[i]);
+    if (slot == kNone) slot = slot_for(view, frame.detections[i]);
     if (slot == kNone) {
       ++output_.num_refused;
     } else {
-      take(view, input, i, slot);
+      update_slot(view, input, i, slot);
     }
   }
   end_tracks(frame.capture_us);
@@ -112,7 +82,8 @@ void ObjectTracker::match_by_overlap(const TrackView& view, const DetectionFrame
     const bool open = slots_[slot].in_use && slots_[slot].localised && !slots_[slot].seen &&
                       slots_[slot].track_id >= kFirstOwnId;
     const auto seen =
-        open ? see_cuboid(camera_, view.plane, slots_[slot].track.estimate().x, 0.0) : std::nullopt;
+        open ? project_cuboid(camera_, view.plane, slots_[slot].track.estimate().x, 0.0)
+             : std::nullopt;
     for (std::size_t i = 0; i < frame.detections.size(); ++i) {
       const Detection& detection = frame.detections[i];
       overlap_[i][slot] = seen && detection.track_id < 0 && detection.score >= detections_.min_score
@@ -120,7 +91,8 @@ void ObjectTracker::match_by_overlap(const TrackView& view, const DetectionFrame
                               : 0.0;
     }
   }
-  // The best pair first; the first of equals, so that the order of the boxes decides.
+  // The pair with the largest overlap is matched first.
+  // Among equal ones the order of the boxes decides.
   while (true) {
     double best = objects_.least_overlap_ratio;
     std::size_t best_detection = kMaxDetections, best_slot = kNone;
@@ -140,12 +112,12 @@ void ObjectTracker::match_by_overlap(const TrackView& view, const DetectionFrame
   }
 }
 
-std::size_t ObjectTracker::room_for(const TrackView& view, const Detection& detection) {
+std::size_t ObjectTracker::slot_for(const TrackView& view, const Detection& detection) {
   std::size_t farthest = kNone;
   double most_m = 0.0;
   for (std::size_t slot = 0; slot < kMaxObjects; ++slot) {
     if (!slots_[slot].in_use) return slot;
-    // What was never localised gives way first.
+    // Objects that were never localised are replaced first.
     const double range_m = slots_[slot].localised ? range_of(slots_[slot].track.estimate())
                                                   : std::numeric_limits<double>::infinity();
     if (range_m <= most_m) continue;
@@ -158,8 +130,8 @@ std::size_t ObjectTracker::room_for(const TrackView& view, const Detection& dete
   return farthest;
 }
 
-void ObjectTracker::take(const TrackView& view, const ObjectsInput& input, std::size_t index,
-                         std::size_t slot_index) {
+void ObjectTracker::update_slot(const TrackView& view, const ObjectsInput& input, std::size_t index,
+                                std::size_t slot_index) {
   const DetectionFrame& frame = *input.frame;
   const Detection& detection = frame.detections[index];
   const MeasuredBox box = measured_box(detections_, camera_, frame, index);
@@ -197,7 +169,7 @@ void ObjectTracker::end_tracks(std::int64_t capture_us) {
     if (!slot.in_use) continue;
     bool lost = capture_us - slot.seen_us > max_coast_us;
     if (slot.localised && !slot.seen) {
-      // Behind the camera or out of reach it will not be seen again.
+      // An object behind the camera or out of range will not be detected again.
       const StateVector& x = slot.track.estimate().x;
       lost = lost || x(kX) < kNearestRange_m ||
              x.head<2>().norm() > kMostRangeRatio * detections_.max_distance_m;
@@ -212,36 +184,22 @@ void ObjectTracker::report(const TrackView& view, const ObjectsInput& input) {
   for (const Slot& slot : slots_) {
     if (!slot.in_use) continue;
     ObjectOutput object;
+    if (slot.localised) object = output_of(slot.track, view, input.motion);
     object.track_id = slot.track_id;
     object.object_class = slot.track.object_class();
     object.reason = slot.reason;
     object.age_s = 1e-6 * static_cast<double>(input.frame->capture_us - slot.begun_us);
-    object.time_to_collision_s = kNan;
-    if (slot.localised) {
-      const StateEstimate& estimate = slot.track.estimate();
-      const StateMatrix& P = estimate.P;
-      const bool predicted =
-          slot.reason == ObjectReason::kNotSeen || slot.reason == ObjectReason::kMisfit;
+    const bool predicted =
+        slot.reason == ObjectReason::kNotSeen || slot.reason == ObjectReason::kMisfit;
+    if (slot.localised)
       object.status = predicted ? ObjectStatus::kPredicted : ObjectStatus::kMeasured;
-      object.position_m = estimate.x.head<2>();
-      object.position_cov_m2 = position_cov(estimate, view);
-      object.velocity_holds = slot.track.over_ground();
-      object.velocity_m_s = estimate.x.segment<2>(kVelocityX);
-      object.velocity_cov_m2_s2 = P.block<2, 2>(kVelocityX, kVelocityX);
-      object.yaw_rad = estimate.x(kYaw);
-      object.yaw_std_rad = std::sqrt(P(kYaw, kYaw));
-      object.size_m = {length_of(estimate.x), width_of(estimate.x), height_of(estimate.x)};
-      object.size_std_m = size_std_of(P, object.size_m);
-      object.time_to_collision_s =
-          time_to_collision(estimate, input.motion, slot.track.over_ground());
-    }
     if (!output_.objects.push_back(object)) ++output_.num_refused;
   }
   std::sort(output_.objects.begin(), output_.objects.end(),
             [](const ObjectOutput& a, const ObjectOutput& b) {
-              const bool a_holds = a.status != ObjectStatus::kNotLocalised;
-              const bool b_holds = b.status != ObjectStatus::kNotLocalised;
-              if (a_holds != b_holds) return a_holds;
+              const bool a_localised = a.status != ObjectStatus::kNotLocalised;
+              const bool b_localised = b.status != ObjectStatus::kNotLocalised;
+              if (a_localised != b_localised) return a_localised;
               const double a_m = a.position_m.norm(), b_m = b.position_m.norm();
               return a_m != b_m ? a_m < b_m : a.track_id < b.track_id;
             });

@@ -1,5 +1,5 @@
-/// Every setting of plumb-objects; visit() is the one list of keys, ranges and meanings. Heights and
-/// what boxes are worth are in detections_config.hpp.
+/// Every setting of plumb-objects; visit() is the only list of keys, ranges and meanings. The
+/// heights of objects and the accuracy of boxes are in detections_config.hpp.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-/// Width and length-to-width ratio of a class before an object is seen.
+/// The distribution of a class's width and length-to-width ratio before an object is observed.
 struct FootprintPrior {
   double width_m = 0.0;
   double width_std_m = 0.0;
@@ -62,16 +62,16 @@ struct ObjectsConfig {
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
-    field(
-        "objects.plane", c.plane, {"measured", "calibrated"},
-        "road that objects stand on: GROUND_PLANE where it holds; or always the calibrated plane, "
-        "for comparison");
+    field("objects.plane", c.plane, {"measured", "calibrated"},
+          "plane of the road under the objects: GROUND_PLANE where it is valid, or for comparison "
+          "always "
+          "the calibrated plane");
     const auto footprint = [&field](const char* width, const char* width_std, const char* ratio,
                                     const char* ratio_std, auto& prior) {
       field(width, prior.width_m, 0.2, 4.0, "mean width of the class");
-      field(width_std, prior.width_std_m, 0.01, 2.0, "1-sigma of the width");
-      field(ratio, prior.ratio, 0.3, 10.0, "mean length over width");
-      field(ratio_std, prior.ratio_std, 0.01, 5.0, "1-sigma of length over width");
+      field(width_std, prior.width_std_m, 0.01, 2.0, "standard deviation of the width");
+      field(ratio, prior.ratio, 0.3, 10.0, "mean of length over width");
+      field(ratio_std, prior.ratio_std, 0.01, 5.0, "standard deviation of length over width");
     };
     footprint("objects.car_width_m", "objects.car_width_std_m", "objects.car_length_ratio",
               "objects.car_length_ratio_std", c.car);
@@ -91,30 +91,33 @@ struct ObjectsConfig {
     field("objects.unknown_height_m", c.unknown_height_m, 0.5, 4.0,
           "mean height of objects without a class");
     field("objects.unknown_height_std_m", c.unknown_height_std_m, 0.02, 2.0,
-          "1-sigma of objects without a class");
+          "standard deviation of the height of objects without a class");
     field("objects.contact_inset_m", c.contact_inset_m, 0.0, 1.0,
-          "how far inside its outline a vehicle touches the road");
-    field("objects.contact_inset_std_m", c.contact_inset_std_m, 0.0, 1.0, "1-sigma of that");
-    field(
-        "objects.side_std_m", c.side_std_m, 0.0, 1.0,
-        "1-sigma by which an object's middle lies beside that of its box: bodies are rounded, and "
-        "the same in all images");
+          "distance inside its outline at which a vehicle touches the road");
+    field("objects.contact_inset_std_m", c.contact_inset_std_m, 0.0, 1.0,
+          "standard deviation of that distance");
+    field("objects.side_std_m", c.side_std_m, 0.0, 1.0,
+          "standard deviation of the systematic lateral offset between the centre of an object and "
+          "that of its box, which the rounded shape of a body causes");
     field("objects.accel_std_m_s2", c.accel_std_m_s2, 0.1, 20.0,
-          "1-sigma of an object's acceleration");
+          "standard deviation of an object's acceleration");
     field("objects.relative_accel_std_m_s2", c.relative_accel_std_m_s2, 0.1, 50.0,
-          "the same, the camera's own turns included, while its motion is not known");
+          "standard deviation of the acceleration relative to the camera, while its motion is "
+          "unknown");
     field("objects.start_speed_std_m_s", c.start_speed_std_m_s, 0.5, 60.0,
-          "1-sigma of the velocity of a new object");
+          "standard deviation of the velocity of a new object");
     field("objects.plane_error_time_s", c.plane_error_time_s, 0.05, 30.0,
-          "time over which an error of the plane keeps its value");
-    field("objects.cross_slope_std", c.cross_slope_std, 0.0, 0.2,
-          "1-sigma of the road's slope between the camera's lane and an object beside it");
+          "correlation time of the error of the plane");
+    field(
+        "objects.cross_slope_std", c.cross_slope_std, 0.0, 0.2,
+        "standard deviation of the road's slope between the camera's lane and an object beside it");
     field("objects.foot_height_std_m", c.foot_height_std_m, 0.0, 0.5,
-          "1-sigma of the kerbs and bumps that an object stands on");
+          "standard deviation of the height of kerbs and bumps under an object");
     field("objects.max_coast_s", c.max_coast_s, 0.1, 5.0,
-          "a track that was not seen for longer ends");
-    field("objects.least_overlap_ratio", c.least_overlap_ratio, 0.05, 0.95,
-          "intersection over union that continues a track when the detector does not track");
+          "longest time for which a track is predicted without a box");
+    field(
+        "objects.least_overlap_ratio", c.least_overlap_ratio, 0.05, 0.95,
+        "smallest intersection over union that continues a track when the detector does not track");
   }
 };
 

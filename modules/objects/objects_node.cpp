@@ -8,15 +8,15 @@ namespace {
 
 constexpr double kCalibratedRollStd = 0.01;    ///< [rad]
 constexpr double kCalibratedHeightStd = 0.01;  ///< [ratio]
-constexpr double kLongestGap_s = 2.0;          ///< velocities say nothing across a longer one
+constexpr double kLongestGap_s = 2.0;          ///< a longer gap is predicted as one of this length
 
-bool motion_holds(EgoStatus status) {
+bool is_motion_valid(EgoStatus status) {
   return status == EgoStatus::kOk || status == EgoStatus::kScaleHeld ||
          status == EgoStatus::kStandstill || status == EgoStatus::kCoasting;
 }
 
-/// Of the ground axes, from that of the camera; its tilt against the road changes it by less than a
-/// thousandth.
+/// Takes the motion of the ground axes from that of the camera. The tilt of the camera against the
+/// road changes it by less than a thousandth.
 void set_motion(const Se3& T_prev_cam, GroundMotion* motion) {
   motion->known = true;
   motion->t_m = {T_prev_cam.t.z(), -T_prev_cam.t.x()};
@@ -62,19 +62,19 @@ const char* ObjectsNode::take_ego(const ego_motion_t& message) {
 const char* ObjectsNode::pair(const ground_plane_t& plane, const ego_motion_t& ego) {
   has_plane_ = has_ego_ = false;
   if (const char* why = from_wire(plane, ego, &output_)) return why;
-  if (output_.capture_us < newest_plane_us_) begin_anew();
+  if (output_.capture_us < newest_plane_us_) reset();
   newest_plane_us_ = output_.capture_us;
   Ground& ground = kept_[next_];
   next_ = (next_ + 1) % kKept;
   ground.seq = output_.seq;
   ground.capture_us = output_.capture_us;
   const PlaneOutput& out = output_.plane;
-  ground.plane_holds = out.status == GroundStatus::kOk || out.status == GroundStatus::kHeld;
+  ground.plane_valid = out.status == GroundStatus::kOk || out.status == GroundStatus::kHeld;
   ground.plane = {out.pitch_rad, out.roll_rad, out.height_m, out.cov};
-  ground.motion_holds = motion_holds(output_.ego.status);
+  ground.motion_valid = is_motion_valid(output_.ego.status);
   ground.reset_counter = output_.ego.reset_counter;
   ground.T_world_cam = output_.ego.T_world_cam;
-  // Planes come in order: one that did not come before this one was lost.
+  // Planes arrive in order, so a plane that has not arrived before this one was lost.
   while (waiting() && waiting_.front().capture_us <= ground.capture_us) {
     const DetectionFrame& oldest = waiting_.front();
     const bool same = oldest.seq == ground.seq && oldest.capture_us == ground.capture_us;
@@ -101,7 +101,7 @@ const char* ObjectsNode::take_detections(const detections_t& message) {
   return nullptr;
 }
 
-void ObjectsNode::begin_anew() {
+void ObjectsNode::reset() {
   kept_.fill({});
   waiting_.clear();
   any_taken_ = any_processed_ = false;
@@ -136,7 +136,7 @@ RoadPlane ObjectsNode::calibrated_plane() const {
 void ObjectsNode::process(const DetectionFrame& frame, const Ground* ground) {
   ObjectsInput input;
   input.frame = &frame;
-  input.plane_measured = ground != nullptr && ground->plane_holds && objects_.plane == "measured";
+  input.plane_measured = ground != nullptr && ground->plane_valid && objects_.plane == "measured";
   input.plane = input.plane_measured ? ground->plane : calibrated_plane();
 
   Ground now;
@@ -146,7 +146,7 @@ void ObjectsNode::process(const DetectionFrame& frame, const Ground* ground) {
   if (any_processed_) {
     input.motion.dt_s =
         std::min(1e-6 * static_cast<double>(now.capture_us - last_.capture_us), kLongestGap_s);
-    if (now.motion_holds && last_.motion_holds && now.reset_counter == last_.reset_counter) {
+    if (now.motion_valid && last_.motion_valid && now.reset_counter == last_.reset_counter) {
       set_motion(last_.T_world_cam.inverse() * now.T_world_cam, &input.motion);
     }
   }

@@ -1,12 +1,19 @@
-/// Everything plumb-objects does between its inputs' messages and its output's.
+/// Everything that plumb-objects does between its input messages and its output message.
 ///
-/// Pairing  detections are processed with the ground plane and the motion of their own image, however
-///          late they come, as long as it is among the last kKept. When they come first they wait: for that plane,
-///          for a plane of a later image, for expire(), or until kMaxWaiting others came after them; but in the first
-///          case the calibrated plane serves (REASON_CALIBRATED_PLANE).
-/// Order    detections of an image that is not newer than the last processed one are refused.
-/// Restart  a plane older than the one before is of a source that began anew; so does the tracker.
-/// Start    the first sound calibration makes the tracker; detections before it are refused.
+/// Pairing:
+///   Detections are processed with the ground plane and the motion of their own image, as long as
+///   that is among the last kKept. Detections that arrive before their plane wait for it. The wait
+///   also ends with a plane of a later image, with expire(), or when kMaxWaiting later detections
+///   arrive; the calibrated plane is then used (REASON_CALIBRATED_PLANE).
+/// Order:
+///   Detections of an image that is not newer than the last one are refused.
+/// Initialisation:
+///   The first valid calibration creates the tracker. Detections before it are refused. A plane
+///   that is older than the one before means that the source restarted, and resets the tracker.
+/// Memory:
+///   All storage is allocated at construction, except the tracker, which the calibration creates.
+/// Errors:
+///   take_*() return null when the message is accepted, and else the reason as a string literal.
 #pragma once
 
 #include <array>
@@ -27,31 +34,30 @@ namespace plumb {
 class ObjectsNode {
  public:
   using Sink = std::function<void(const objects_t&)>;
-  static constexpr std::size_t kKept = 64;  ///< ground planes: six seconds of a 10 Hz camera
+  static constexpr std::size_t kKept = 64;  ///< ground planes, for six seconds at 10 Hz
   static constexpr std::size_t kMaxWaiting = 3;
 
   ObjectsNode(const DetectionsConfig& detections, const ObjectsConfig& objects,
               const GroundConfig& ground, Sink sink);
 
-  /// Null when taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_plane(const ground_plane_t& message);
   [[nodiscard]] const char* take_ego(const ego_motion_t& message);
   [[nodiscard]] const char* take_detections(const detections_t& message);
-  /// The planes that detections wait for will not come any more.
+  /// Processes waiting detections without their planes, which are late.
   void expire();
 
   [[nodiscard]] bool calibrated() const { return tracker_.has_value(); }
   [[nodiscard]] bool waiting() const { return !waiting_.empty(); }
 
  private:
-  /// What is kept of one image.
+  /// The plane and the motion of one image.
   struct Ground {
     std::int64_t seq = -1;
     std::int64_t capture_us = 0;
-    bool plane_holds = false;
+    bool plane_valid = false;
     RoadPlane plane;
-    bool motion_holds = false;
+    bool motion_valid = false;
     std::int32_t reset_counter = 0;
     Se3 T_world_cam;
   };
@@ -61,7 +67,7 @@ class ObjectsNode {
   [[nodiscard]] RoadPlane calibrated_plane() const;
   void process(const DetectionFrame& frame, const Ground* ground);
   void process_oldest(const Ground* ground);
-  void begin_anew();
+  void reset();
 
   DetectionsConfig detections_;
   ObjectsConfig objects_;
@@ -71,8 +77,8 @@ class ObjectsNode {
   std::optional<ObjectTracker> tracker_;
   std::array<Ground, kKept> kept_{};
   std::size_t next_ = 0;
-  ground_plane_t plane_{};  ///< without its ego motion yet
-  ego_motion_t ego_{};      ///< without its plane yet
+  ground_plane_t plane_{};  ///< waits for the ego motion of its image
+  ego_motion_t ego_{};      ///< waits for the plane of its image
   bool has_plane_ = false;
   bool has_ego_ = false;
   GroundOutput output_;
@@ -80,9 +86,9 @@ class ObjectsNode {
   FixedQueue<DetectionFrame, kMaxWaiting> waiting_;
   std::int64_t newest_plane_us_ = 0;
   bool any_taken_ = false;
-  std::int64_t newest_us_ = 0;  ///< of the detections taken last
+  std::int64_t newest_us_ = 0;  ///< capture time of the newest detections
   bool any_processed_ = false;
-  Ground last_;  ///< of the image processed last
+  Ground last_;  ///< plane and motion of the last processed image
   objects_t message_{};
 };
 

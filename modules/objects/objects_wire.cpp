@@ -31,10 +31,10 @@ void write_object(const ObjectOutput& object, object_t* out) {
   out->position_ground_m[2] = 0.0;
   to_wire(object.position_cov_m2, out->position_cov_m2);
   for (int i = 0; i < 2; ++i) {
-    out->velocity_ground_m_s[i] = object.velocity_holds ? object.velocity_m_s(i) : kNan;
+    out->velocity_ground_m_s[i] = object.velocity_valid ? object.velocity_m_s(i) : kNan;
     for (int j = 0; j < 2; ++j) {
       out->velocity_cov_m2_s2[i][j] =
-          object.velocity_holds ? object.velocity_cov_m2_s2(i, j) : kNan;
+          object.velocity_valid ? object.velocity_cov_m2_s2(i, j) : kNan;
     }
   }
   out->yaw_rad = object.yaw_rad;
@@ -45,12 +45,12 @@ void write_object(const ObjectOutput& object, object_t* out) {
   out->age_s = object.age_s;
 }
 
-bool velocity_from_wire(const object_t& message, ObjectOutput* object) {
-  object->velocity_holds = !std::isnan(message.velocity_ground_m_s[0]);
-  if (!object->velocity_holds) return true;
+const char* velocity_from_wire(const object_t& message, ObjectOutput* object) {
+  object->velocity_valid = !std::isnan(message.velocity_ground_m_s[0]);
+  if (!object->velocity_valid) return nullptr;
   object->velocity_m_s = Eigen::Vector2d(message.velocity_ground_m_s);
-  return object->velocity_m_s.allFinite() &&
-         from_wire(message.velocity_cov_m2_s2, &object->velocity_cov_m2_s2);
+  if (!object->velocity_m_s.allFinite()) return "a velocity is not finite";
+  return from_wire(message.velocity_cov_m2_s2, &object->velocity_cov_m2_s2);
 }
 
 const char* object_from_wire(const object_t& message, ObjectOutput* object) {
@@ -81,9 +81,9 @@ const char* object_from_wire(const object_t& message, ObjectOutput* object) {
   const bool sound = object->position_m.allFinite() && std::isfinite(object->yaw_rad) &&
                      object->yaw_std_rad >= 0.0 && object->size_m.allFinite() &&
                      object->size_m.minCoeff() >= 0.0 && object->size_std_m.minCoeff() >= 0.0 &&
-                     from_wire(message.position_cov_m2, &object->position_cov_m2) &&
-                     velocity_from_wire(message, object);
-  return sound ? nullptr : "objects: a place, size or deviation is not a number";
+                     from_wire(message.position_cov_m2, &object->position_cov_m2) == nullptr &&
+                     velocity_from_wire(message, object) == nullptr;
+  return sound ? nullptr : "objects: a position, size or standard deviation is not a number";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// ObjectsOutput <-> objects_t. No LCM instance.
+/// Converts ObjectsOutput to objects_t and back, without an LCM instance.
 #pragma once
 
 #include "modules/objects/objects.hpp"
@@ -6,10 +6,11 @@
 
 namespace plumb {
 
-/// Allocates only while `message` holds fewer objects than ever before; reserve kMaxObjects once.
+/// Fills `message`. Reserve kMaxObjects in its list once; then this allocates nothing.
 void to_wire(const ObjectsOutput& output, objects_t* message);
 
-/// Null, and `output` filled, when the message keeps its contract; else why not.
+/// Fills `output` and returns null when the message keeps its contract, and else returns the reason
+/// as a string literal.
 [[nodiscard]] const char* from_wire(const objects_t& message, ObjectsOutput* output);
 
 }  // namespace plumb

@@ -1,4 +1,4 @@
-/// V4L2 device, KITTI folder or video -> CAMERA, CAMERA_CALIBRATION
+/// plumb-camera: V4L2 device, KITTI folder or video -> CAMERA, CAMERA_CALIBRATION
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -79,7 +79,7 @@ class CameraProcess {
 int main(int argc, char** argv) {
   plumb::Process process(
       {"camera", "Camera, KITTI folder or video -> CAMERA", plumb::kHealthCamera});
-  // What goes wrong is said once, in our own words.
+  // OpenCV is silenced, so that each error is reported once and by this process.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::PlumbConfig config;
   Options options;

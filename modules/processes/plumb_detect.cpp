@@ -1,8 +1,9 @@
-/// CAMERA -> boxes of vehicles and people -> DETECTIONS, by a network that the user names
+/// plumb-detect: CAMERA -> boxes of vehicles and people,
+/// by a network of the user's choice -> DETECTIONS
 #include <optional>
 
 #include "modules/chain/plumb_config.hpp"
-#include "modules/detector/detect_node.hpp"
+#include "modules/detector/detector_node.hpp"
 #include "platform/clock.hpp"
 #include "platform/process.hpp"
 
@@ -11,9 +12,9 @@ namespace {
 constexpr std::size_t kMaxBytes =
     sizeof(plumb::detections_t) + plumb::kMaxDetections * sizeof(plumb::detection_t);
 
-class DetectProcess {
+class DetectorProcess {
  public:
-  DetectProcess(plumb::Process& process, const plumb::DetectConfig& config)
+  DetectorProcess(plumb::Process& process, const plumb::DetectorConfig& config)
       : process_(process),
         node_(config),
         detections_(process.bus(), plumb::kDetections, kMaxBytes),
@@ -23,10 +24,11 @@ class DetectProcess {
         next_search_(process.loop().timer([this] { search(); })) {}
 
  private:
-  /// Searched as soon as the rate allows; until then a newer image may take its place.
+  /// Schedules a search for the earliest time that the rate allows. Until then a newer image
+  /// replaces this one.
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
     const char* refused = node_.take_image(bytes);
-    process_.counters().num_dropped = node_.num_passed_over();
+    process_.counters().num_dropped = node_.num_skipped();
     if (refused == nullptr) process_.loop().arm_at(next_search_, next_us_);
     return refused;
   }
@@ -44,7 +46,7 @@ class DetectProcess {
   }
 
   plumb::Process& process_;
-  plumb::DetectNode node_;
+  plumb::DetectorNode node_;
   plumb::Publisher<plumb::detections_t> detections_;
   plumb::RawSubscriber camera_;
   std::int64_t period_us_;
@@ -56,10 +58,10 @@ class DetectProcess {
 
 int main(int argc, char** argv) {
   plumb::Process process({"detect",
-                          "Boxes of vehicles and people by a network of your choice: CAMERA -> "
+                          "Detects vehicles and people with a network of your choice: CAMERA -> "
                           "DETECTIONS",
                           plumb::kHealthDetect});
   plumb::PlumbConfig config;
-  std::optional<DetectProcess> detect;
-  return process.run(argc, argv, &config, [&] { detect.emplace(process, config.detect); });
+  std::optional<DetectorProcess> detector;
+  return process.run(argc, argv, &config, [&] { detector.emplace(process, config.detect); });
 }

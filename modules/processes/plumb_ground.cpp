@@ -1,4 +1,5 @@
-/// CAMERA, CAMERA_CALIBRATION, VO_MOTION, DETECTIONS -> ground plane, scale, metric motion -> GROUND_PLANE, EGO_MOTION, MOUNT
+/// plumb-ground: CAMERA, CAMERA_CALIBRATION, VO_MOTION, DETECTIONS
+///   -> GROUND_PLANE, EGO_MOTION, MOUNT
 #include <optional>
 
 #include "modules/chain/ground_algorithm.hpp"

@@ -1,4 +1,4 @@
-/// CAMERA_CALIBRATION, GROUND_PLANE, EGO_MOTION, DETECTIONS -> objects on the road -> OBJECTS
+/// plumb-objects: CAMERA_CALIBRATION, GROUND_PLANE, EGO_MOTION, DETECTIONS -> OBJECTS
 #include <optional>
 
 #include "modules/chain/plumb_config.hpp"
@@ -21,9 +21,9 @@ class ObjectsProcess {
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
         plane_(process.bus(), plumb::kGroundPlane, plumb::Input::kPeriodic,
-               [this](const plumb::ground_plane_t& m) { return begun().take_plane(m); }),
+               [this](const plumb::ground_plane_t& m) { return timed_node().take_plane(m); }),
         ego_(process.bus(), plumb::kEgoMotion, plumb::Input::kPeriodic,
-             [this](const plumb::ego_motion_t& m) { return begun().take_ego(m); }),
+             [this](const plumb::ego_motion_t& m) { return timed_node().take_ego(m); }),
         detections_(process.bus(), plumb::kDetections, plumb::Input::kPeriodic,
                     [this](const plumb::detections_t& m) { return on_detections(m); }),
         plane_timeout_(process.loop().timer([this] { node_.expire(); })) {
@@ -38,15 +38,15 @@ class ObjectsProcess {
   }
 
   const char* on_detections(const plumb::detections_t& message) {
-    const char* refused = begun().take_detections(message);
+    const char* refused = timed_node().take_detections(message);
     if (node_.waiting()) {
       process_.loop().arm_at(plane_timeout_, plumb::monotonic_us() + plumb::kGroundPlane.stale_us);
     }
     return refused;
   }
 
-  /// Any of three messages may be the one that completes an image: time runs from its arrival.
-  plumb::ObjectsNode& begun() {
+  /// Any of three messages may complete an image, so each one starts the stage timer.
+  plumb::ObjectsNode& timed_node() {
     process_.timer().begin();
     return node_;
   }

@@ -61,7 +61,7 @@ const char* window_from_wire(const vo_motion_t& message, VoOutput* output) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(message.num_window); ++i) {
     WindowPose pose;
     pose.seq = message.window_seq[i];
-    if (!from_wire(message.q_window_cam[i], message.t_window_cam[i], &pose.T_window_cam))
+    if (from_wire(message.q_window_cam[i], message.t_window_cam[i], &pose.T_window_cam) != nullptr)
       return "VO motion: a window pose is not a pose";
     const std::int64_t newer = i == 0 ? message.seq : message.window_seq[i - 1];
     if (pose.seq > newer || !output->window.push_back(pose))
@@ -146,9 +146,9 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
   output->scale_epoch = message.scale_epoch;
   output->scale_carry_std = message.scale_carry_std;
   output->prev_seq = message.prev_seq;
-  if (!from_wire(message.q_prev_cam, message.t_prev_cam, &output->T_prev_cam))
+  if (from_wire(message.q_prev_cam, message.t_prev_cam, &output->T_prev_cam) != nullptr)
     return "VO motion: the relative pose is not a pose";
-  if (!from_wire(message.cov_prev_cam, &output->cov_prev_cam))
+  if (from_wire(message.cov_prev_cam, &output->cov_prev_cam) != nullptr)
     return "VO motion: the covariance is not a covariance";
   if (const char* why = window_from_wire(message, output)) return why;
   if (const char* why = summary_from_wire(message, output)) return why;

@@ -22,7 +22,7 @@ namespace plumb::bench {
 
 inline constexpr int kMaxFrames = 160;
 
-/// Processor time of this thread.
+/// Processor time that this thread has used.
 inline double thread_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -41,7 +41,7 @@ struct Frames {
   std::vector<cv::Mat> images;
 };
 
-/// The real drive, up to `max_frames` of it, or a rendered one.
+/// Loads up to `max_frames` of the real drive or, where that is missing, renders a street.
 inline Frames load_frames(int max_frames = kMaxFrames) {
   Frames frames;
   const auto folder = test::kitti_sequence("raw/drive0039_024-400");
@@ -83,7 +83,7 @@ inline Frames load_frames(int max_frames = kMaxFrames) {
   return frames;
 }
 
-/// Stage times of every frame.
+/// Collects the stage times of every frame.
 class StageClock final : public StageProbe {
  public:
   void begin() override {
@@ -97,7 +97,7 @@ class StageClock final : public StageProbe {
     total_ms_ += now - last_ms_;
     last_ms_ = now;
   }
-  /// Ends the frame; returns its total.
+  /// Ends the frame and returns its total time.
   double end() {
     for (const auto& [name, ms] : frame_) stages_[name].push_back(ms);
     totals_.push_back(total_ms_);

@@ -1,11 +1,12 @@
-/// Time of vo and of ground per frame beside one OpenCV calcOpticalFlowPyrLK of 1000 points, on the same frames in the
-/// same run, and the memory that both estimators own.
+/// Measures the time of vo and ground per frame, beside one OpenCV calcOpticalFlowPyrLK of 1000
+/// points on the same frames in the same run, and the memory that both estimators own.
 ///
-///     chain_bench [frames]      all of the drive when left out
+///     chain_bench [frames]      takes the whole drive without the argument
 ///
-/// Real frames when KITTI is here (PLUMBLINE_DATA), else a rendered street. Processor time of one thread; the three take
-/// turns frame by frame, so that whatever else the machine does hits them alike. Finding the 1000 points is not counted,
-/// building both of PyrLK's pyramids is, as vo and ground build theirs.
+/// The frames are those of KITTI where it exists (PLUMBLINE_DATA), and else those of a rendered
+/// street. Times are the processor time of one thread. The three take turns frame by frame, so that
+/// other load affects them alike. Detecting the 1000 points is not counted. Building both of
+/// PyrLK's pyramids is, because vo and ground build theirs as well.
 
 #include <cstdio>
 #include <cstdlib>
@@ -58,7 +59,7 @@ Times run(const Frames& frames, VisualOdometry& odometry, GroundEstimator& estim
     const double between = thread_ms();
     (void)estimator.update({&vo, image}, probe);
     const double end = thread_ms();
-    if (i == 0) continue;  // nothing to track yet
+    if (i == 0) continue;  // the first frame has nothing to track
     times.vo.push_back(between - start);
     times.ground.push_back(end - between);
     times.sum.push_back(end - start);

@@ -1,4 +1,5 @@
-/// Time of the ground library per 1242x375 frame of a rendered drive, whole and by stage, with its error beside it.
+/// Measures the time of the ground library per 1242x375 frame of a rendered drive, in total and by
+/// stage, and the error of the scale.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

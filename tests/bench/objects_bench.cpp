@@ -1,4 +1,5 @@
-/// Time of one update of the object tracker with every place taken: 32 cars along a street.
+/// Measures the time of one update of the object tracker with the largest number of objects: 32
+/// cars along a street.
 #include <benchmark/benchmark.h>
 
 #include <stdexcept>
@@ -12,7 +13,7 @@ namespace {
 constexpr double kSpeed_m_s = 10.0;
 constexpr int kNumFrames = 10;
 
-/// Two rows of parked cars; after kNumFrames the drive starts again.
+/// The frames of a drive between two rows of parked cars.
 std::vector<DetectionFrame> street() {
   std::vector<DetectionFrame> frames(kNumFrames);
   for (int k = 0; k < kNumFrames; ++k) {
@@ -43,7 +44,7 @@ void track_32_cars(benchmark::State& state) {
     tracker = ObjectTracker(DetectionsConfig{}, ObjectsConfig{}, test::kSceneCamera);
     input.frame = &frames[0];
     input.motion = {};
-    tracker.update(input);  // the search for headings, once in an object's life
+    tracker.update(input);  // only the first update of an object tries several headings
     input.motion = {0.1, true, {0.1 * kSpeed_m_s, 0.0}, 0.0};
     state.ResumeTiming();
     for (std::size_t k = 1; k < frames.size(); ++k) {

@@ -1,7 +1,8 @@
-/// Time of the visual odometry per stage, beside one OpenCV calcOpticalFlowPyrLK on the same frames in the same run.
+/// Measures the time of the visual odometry per stage, beside one OpenCV calcOpticalFlowPyrLK on
+/// the same frames in the same run.
 ///
-/// Real frames when KITTI is here (PLUMBLINE_DATA), else a rendered street. Times are this thread's processor time, so
-/// that other programs on the machine count little. One thread for both.
+/// The frames are those of KITTI where it exists (PLUMBLINE_DATA), and else those of a rendered
+/// street. Times are the processor time of one thread, which other programs affect little.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core.hpp>

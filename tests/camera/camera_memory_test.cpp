@@ -1,4 +1,5 @@
-/// The camera library takes no memory after construction. A program of its own: it replaces malloc.
+/// Checks that the camera library allocates nothing after construction. This is a separate program
+/// because it replaces malloc.
 #include <gtest/gtest.h>
 
 #include "modules/camera/convert.hpp"
@@ -29,7 +30,7 @@ TEST(CameraMemory, NoFrameAllocates) {
   Pacer pacer(1.0);
   SequenceTracker tracker;
   NullProbe probe;
-  ASSERT_GT(test::g_num_mallocs.load(), before_construction);  // the counter works
+  ASSERT_GT(test::g_num_mallocs.load(), before_construction);  // shows that the counter works
 
   const auto before = test::g_num_mallocs.load();
   for (std::uint32_t i = 0; i < 20; ++i) {

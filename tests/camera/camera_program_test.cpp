@@ -1,4 +1,4 @@
-/// plumb-camera as a user runs it: real process, real LCM, in a private network.
+/// Tests plumb-camera as a real process with real LCM in a private network.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -25,10 +25,10 @@ struct Received {
   cv::Mat image;
 };
 
-/// Everything a run of plumb-camera published.
+/// Everything that a run of plumb-camera published.
 struct Published {
   std::vector<Received> images;
-  std::vector<std::size_t> calibrations_at;  ///< number of images that came before each
+  std::vector<std::size_t> calibrations_at;  ///< number of images before each calibration
   camera_calibration_t calibration{};
   std::vector<process_health_t> health;
   int exit_code = -1;
@@ -105,7 +105,8 @@ TEST_F(PlumbCamera, PlaysAKittiFolderAtItsPaceTimesSpeed) {
     const cv::Mat sent = KittiFolder::image(100 + static_cast<int>(i));
     EXPECT_EQ(cv::norm(sent, run.images[i].image, cv::NORM_INF), 0.0);
   }
-  // 24 steps of 50 ms; a loaded machine is late now and then, never early, and catches up.
+  // There are 24 steps of 50 ms. Under load a frame may be late,
+  // but never early, and the player catches up.
   const auto span_us = run.images.back().arrival_us - run.images.front().arrival_us;
   EXPECT_GT(span_us, 1'100'000);
   EXPECT_LT(span_us, 2'200'000);

@@ -1,4 +1,4 @@
-/// What can be known of V4L2 without a device; vivid/run has one.
+/// Tests the parts of V4L2 that need no device. vivid/run tests the rest with a virtual one.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -50,7 +50,8 @@ TEST(DeviceSource, RefusesAtStartAndReportsLater) {
   EXPECT_NE(source.why().find("No such file"), std::string::npos);
 }
 
-/// MJPEG as cameras send it. vivid has none, so the decoder that DeviceSource uses is tested by itself.
+/// MJPEG frames as cameras send them. vivid offers no MJPEG, so the decoder of DeviceSource is
+/// tested separately.
 class Mjpeg : public testing::Test {
  protected:
   static constexpr int kWidth = 320;

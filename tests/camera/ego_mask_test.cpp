@@ -19,7 +19,7 @@ TEST(EgoMask, PolygonCoversTheSamePixelsAsOpenCvButForItsOutline) {
   cv::Mat filled(kHeight, kWidth, CV_8U, cv::Scalar(0));
   const std::vector<cv::Point> corners{{20, 120}, {60, 70}, {140, 72}, {180, 120}};
   cv::fillPoly(filled, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(1));
-  // fillPoly draws the outline too: compare away from it.
+  // fillPoly also draws the outline, so only pixels off the outline are compared.
   cv::Mat inner;
   cv::Mat outer;
   cv::erode(filled, inner, cv::Mat::ones(5, 5, CV_8U), {-1, -1}, 1, cv::BORDER_REPLICATE);
@@ -93,7 +93,8 @@ TEST(EgoMask, FillIsTheGreyOfTheBandAroundIt) {
   EXPECT_EQ(cv::norm(image, cv::Mat(kHeight, kWidth, CV_8U, cv::Scalar(77)), cv::NORM_INF), 0.0);
 }
 
-/// Strongest corner (smaller eigenvalue over 7x7, as trackers rank them) along the mask's border.
+/// Strongest corner along the border of the mask: the smaller eigenvalue over 7x7 pixels, by which
+/// trackers rank corners.
 double strongest_corner(const cv::Mat& image) {
   cv::Mat strength;
   cv::cornerMinEigenVal(image, strength, 7);
@@ -103,7 +104,7 @@ double strongest_corner(const cv::Mat& image) {
 }
 
 TEST(EgoMask, ItsOwnBorderMakesNoCornerToTrack) {
-  // A bright bonnet with a corner on a smooth road. Masked hard in black it leaves a strong corner.
+  // A bright bonnet with a corner on a smooth road. A sharp black mask would leave a strong corner.
   cv::Mat road(kHeight, kWidth, CV_8U);
   for (int v = 0; v < kHeight; ++v) road.row(v).setTo(90 + v / 6);
   const char* const bonnet = "60,119.5 60,80 140,80 140,119.5";

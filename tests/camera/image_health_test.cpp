@@ -62,7 +62,7 @@ TEST_F(ImageHealthTest, ANightRoadUnderHeadLampsIsNotBlack) {
 
 TEST_F(ImageHealthTest, TheSameImageAgainAndAgainIsFrozen) {
   const cv::Mat image = test::noise(kHeight, kWidth, 9);
-  EXPECT_EQ(show(image), ImageFault::kNone);  // the first of them is news
+  EXPECT_EQ(show(image), ImageFault::kNone);  // the first one differs from the previous image
   EXPECT_EQ(show(image), ImageFault::kNone);
   EXPECT_EQ(show(image), ImageFault::kNone);
   EXPECT_EQ(show(image), ImageFault::kFrozen);

@@ -12,7 +12,7 @@ namespace {
 
 using test::KittiFolder;
 
-/// Plays the folder to its end; what InputError says, or "" without one.
+/// Plays the folder to its end. Returns the sentence of the InputError, or "" without an error.
 std::string error_of(const std::string& path, int camera = 0) {
   try {
     KittiSource source(path, camera);
@@ -30,8 +30,8 @@ void expect_error(const std::string& path, const std::string& part) {
   EXPECT_NE(error.find(part), std::string::npos) << "'" << part << "' is not in: " << error;
 }
 
-// Folders of every kind, and everything that can be wrong with one, are plumb-kitti2lcm's tests; here is
-// what plumb-camera makes of them.
+// The tests of plumb-kitti2lcm cover every kind of folder and every error in one. These tests cover
+// what plumb-camera does with a folder.
 
 TEST(KittiSource, DeliversEveryPixelTimeAndNumber) {
   const KittiFolder folder;

@@ -9,14 +9,15 @@ TEST(Pacer, FollowsTheRecordedTimesAtItsSpeed) {
   Pacer pacer(2.0);
   EXPECT_EQ(pacer.due_us(5'000'000, 100), 100);
   EXPECT_EQ(pacer.due_us(5'100'000, 200), 100 + 50'000);
-  EXPECT_EQ(pacer.due_us(5'200'001, 300), 100 + 100'001);  // half a microsecond rounds away from 0
+  EXPECT_EQ(pacer.due_us(5'200'001, 300),
+            100 + 100'001);  // half a microsecond is rounded away from 0
   EXPECT_EQ(pacer.due_us(6'000'000, 400), 100 + 500'000);
 }
 
 TEST(Pacer, ASlowReaderDoesNotMoveTheSchedule) {
   Pacer pacer(1.0);
   EXPECT_EQ(pacer.due_us(0, 1'000), 1'000);
-  // Half a second late: this frame was due long ago, the next is due by the first schedule.
+  // The caller is half a second late. This frame was due before, and the next keeps the schedule.
   EXPECT_EQ(pacer.due_us(100'000, 600'000), 101'000);
   EXPECT_EQ(pacer.due_us(700'000, 610'000), 701'000);
 }
@@ -46,7 +47,7 @@ TEST(SequenceTracker, SurvivesTheWrapOfThe32BitCounter) {
   SequenceTracker tracker;
   EXPECT_EQ(tracker.next(0xFFFF'FFFEU), 0);
   EXPECT_EQ(tracker.next(0xFFFF'FFFFU), 1);
-  EXPECT_EQ(tracker.next(1), 3);  // 0 was dropped
+  EXPECT_EQ(tracker.next(1), 3);  // frame 0 was dropped
   EXPECT_EQ(tracker.num_missing(), 1);
 }
 

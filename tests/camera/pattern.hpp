@@ -1,4 +1,4 @@
-/// Test images: smooth structure with known values everywhere, and noise.
+/// Test images: a smooth pattern that is known everywhere, and noise.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ inline ImageView view_of(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step[0])};
 }
 
-/// Waves a few pixels long in every direction: bilinear sampling of it stays within a grey level.
+/// Waves in every direction that are long enough for bilinear sampling to stay within a grey level.
 inline cv::Mat waves(int width_px, int height_px) {
   cv::Mat image(height_px, width_px, CV_8U);
   for (int v = 0; v < height_px; ++v) {

@@ -25,7 +25,7 @@ struct Comparison {
   int num_pixels = 0;
 };
 
-/// Grey levels between ours and OpenCV's, where both saw the scene.
+/// Difference in grey levels between our result and OpenCV's, where both are valid.
 Comparison compare(const Rectifier& rectifier, const cv::Mat& ours, const cv::Mat& theirs) {
   Comparison result;
   for (int v = 0; v < ours.rows; ++v) {
@@ -41,7 +41,7 @@ Comparison compare(const Rectifier& rectifier, const cv::Mat& ours, const cv::Ma
   return result;
 }
 
-/// OpenCV's map, sampled in floating point: cv::remap on 8 bits rounds the map to 1/32 px itself.
+/// Samples OpenCV's map in floating point, because cv::remap on 8 bits rounds the map to 1/32 px.
 cv::Mat opencv_rectified(const cv::Mat& image, const cv::Mat& map_u, const cv::Mat& map_v) {
   cv::Mat out(image.size(), CV_32F, cv::Scalar(0));
   for (int v = 0; v < out.rows; ++v) {
@@ -77,8 +77,8 @@ TEST(Rectify, PlumbBobMatchesOpenCvsMapWithinOneGreyLevel) {
       matrix_of(published), image.size(), CV_32F, map_u, map_v);
   const Comparison c = compare(rectifier, ours, opencv_rectified(image, map_u, map_v));
   EXPECT_GT(c.num_pixels, kWidth * kHeight * 3 / 4);
-  EXPECT_LT(c.max, 0.75);   // 0.5 of it is rounding to a byte
-  EXPECT_LT(c.mean, 0.27);  // rounding alone gives 0.25
+  EXPECT_LT(c.max, 0.75);   // rounding to a byte contributes 0.5
+  EXPECT_LT(c.mean, 0.27);  // rounding to a byte contributes 0.25
 }
 
 TEST(Rectify, FisheyeMatchesOpenCvsMapWithinOneGreyLevel) {
@@ -115,6 +115,12 @@ TEST(Rectify, UndistortOfOpenCvAgreesWithinItsOwnRounding) {
   EXPECT_LE(c.max, 1.0);
 }
 
+double unseen_ratio(const Rectifier& rectifier) {
+  const auto& unseen = rectifier.unseen();
+  return static_cast<double>(std::count(unseen.begin(), unseen.end(), std::uint8_t{1})) /
+         static_cast<double>(unseen.size());
+}
+
 TEST(Rectify, WithoutDistortionEveryByteIsCopied) {
   const Rectifier rectifier(kWidth, kHeight, kCaptured, Lens{}, kCaptured);
   ASSERT_TRUE(rectifier.is_identity());
@@ -123,7 +129,7 @@ TEST(Rectify, WithoutDistortionEveryByteIsCopied) {
   cv::Mat out(image.size(), CV_8U);
   rectifier.apply(test::view_of(image), out.data);
   EXPECT_EQ(cv::norm(image, out, cv::NORM_INF), 0.0);
-  EXPECT_EQ(rectifier.unseen_ratio(), 0.0);
+  EXPECT_EQ(unseen_ratio(rectifier), 0.0);
 }
 
 TEST(Rectify, FisheyeWithoutCoefficientsIsStillNotAPinhole) {
@@ -132,7 +138,7 @@ TEST(Rectify, FisheyeWithoutCoefficientsIsStillNotAPinhole) {
 }
 
 TEST(Rectify, PixelsOutsideTheCapturedImageAreNamedUnseen) {
-  // A wider published view than the captured one: all four sides are unseen, the middle is not.
+  // The published view is wider than the captured one, so all four sides are unseen.
   const PinholePx wide{300.0, 300.0, 317.3, 181.9};
   const Rectifier rectifier(kWidth, kHeight, kCaptured, Lens{}, wide);
   const auto unseen = [&](int u, int v) {
@@ -143,12 +149,13 @@ TEST(Rectify, PixelsOutsideTheCapturedImageAreNamedUnseen) {
   EXPECT_EQ(unseen(320, 0), 1);
   EXPECT_EQ(unseen(320, kHeight - 1), 1);
   EXPECT_EQ(unseen(320, 180), 0);
-  // (300/420) x (300/422) of the image is seen.
-  EXPECT_NEAR(rectifier.unseen_ratio(), 1.0 - (300.0 / 420.0) * (300.0 / 422.0), 0.01);
+  // The camera saw (300/420) x (300/422) of the image.
+  EXPECT_NEAR(unseen_ratio(rectifier), 1.0 - (300.0 / 420.0) * (300.0 / 422.0), 0.01);
 }
 
 TEST(Rectify, BeyondTheFoldOfTheLensPolynomialNothingIsSeen) {
-  // r (1 - 0.5 r^2) turns at r = 0.816; rays further out land inside the image a second time.
+  // r (1 - 0.5 r^2) has its maximum at r = 0.816;
+  // rays beyond it project into the image a second time.
   const Lens lens{LensModel::kPlumbBob, -0.5, 0.0, 0.0, 0.0, 0.0, 0.0};
   const PinholePx published{200.0, 200.0, 320.0, 180.0};
   const Rectifier rectifier(kWidth, kHeight, kCaptured, lens, published);
@@ -156,7 +163,7 @@ TEST(Rectify, BeyondTheFoldOfTheLensPolynomialNothingIsSeen) {
     return rectifier.unseen()[static_cast<std::size_t>(v * kWidth + u)];
   };
   EXPECT_EQ(unseen(320 + 130, 180), 0);  // r = 0.65
-  EXPECT_EQ(unseen(320 + 170, 180), 1);  // r = 0.85, would land at x = 0.54: inside
+  EXPECT_EQ(unseen(320 + 170, 180), 1);  // r = 0.85 would project to x = 0.54, which is inside
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 constexpr int kWidth = 160;
 constexpr int kHeight = 96;
 
-/// Smooth pictures survive the codec: MJPEG in AVI, OpenCV's own writer.
+/// Writes smooth images, which the codec preserves, as MJPEG in AVI with OpenCV.
 std::string write_video(const test::TempFolder& folder, int num_frames) {
   const std::string path = (folder / "drive.avi").string();
   cv::VideoWriter writer(path, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),

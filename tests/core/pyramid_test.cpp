@@ -7,7 +7,8 @@
 namespace plumb {
 namespace {
 
-/// A ramp a + b u + c v: averages keep it a ramp, so every level has an exact expectation.
+/// A ramp a + b u + c v. Its averages are ramps as well, so the expected value of every level is
+/// exact.
 std::vector<std::uint8_t> ramp(int width, int height, int stride) {
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(stride) *
                                    static_cast<std::size_t>(height));

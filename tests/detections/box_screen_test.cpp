@@ -70,7 +70,7 @@ TEST(BoxScreen, RefusesAHiddenCarWhetherTheDetectorSaysSoOrANearerBoxCoversIt) {
 }
 
 TEST(BoxScreen, MeasuresWhichEdgesAreHidden) {
-  // A pedestrian hides a fifth of the van's width below and, being lower, nothing above.
+  // A pedestrian hides a fifth of the van's lower edge but, being lower, nothing of its upper edge.
   DetectionFrame frame;
   Detection van, walker;
   van.box = {100.0, 100.0, 200.0, 200.0};

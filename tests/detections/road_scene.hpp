@@ -1,5 +1,5 @@
-/// Upright objects on a known road, as an ideal detector would box them: foot and head of each
-/// object's middle, so that eq. (9) holds exactly.
+/// Upright objects on a known road with the boxes of an ideal detector. A box ends at the foot and
+/// the head of its object's centre, so that eq. (9) is exact.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ inline const CameraModel kSceneCamera{1242, 375, 721.5, 721.5, 609.6, 172.9, 0.0
 
 struct SceneObject {
   std::int32_t track_id = 0;
-  double x_m = 0.0;  ///< ahead
-  double y_m = 0.0;  ///< to the left
+  double x_m = 0.0;  ///< distance ahead
+  double y_m = 0.0;  ///< distance to the left
   double height_m = 1.53;
   ObjectClass object_class = ObjectClass::kCar;
   double width_m = 1.6;
@@ -59,13 +59,13 @@ inline DetectionFrame seen(const std::vector<SceneObject>& objects, const RoadPl
   return frame;
 }
 
-/// Six cars beside one another at 15 to 60 m, none in front of another.
+/// Six cars at 15 to 60 m of which none hides another.
 inline std::vector<SceneObject> six_cars() {
   return {{1, 15.0, 5.5}, {2, 22.0, 1.5},   {3, 30.0, -3.5},
           {4, 38.0, 8.5}, {5, 46.0, -11.5}, {6, 60.0, -0.5}};
 }
 
-/// Independent noise on all four edges.
+/// Adds independent noise to all four edges.
 inline void shake(DetectionFrame* frame, double std_px, std::mt19937* random) {
   std::normal_distribution<double> normal(0.0, std_px);
   for (Detection& d : frame->detections) {

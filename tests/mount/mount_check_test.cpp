@@ -15,9 +15,10 @@ using test::straight_on;
 
 class MountCheckTest : public testing::Test {
  protected:
-  const MountReport& drive(double way_m, const Eigen::Vector3d& mount_deg, double noise_deg = 0.3) {
+  const MountReport& drive(double distance_m, const Eigen::Vector3d& mount_deg,
+                           double noise_deg = 0.3) {
     std::normal_distribution<double> noise(0.0, noise_deg * kDegree);
-    for (double m = 0.0; m < way_m; m += 0.1 * kSpeed_m_s) {
+    for (double m = 0.0; m < distance_m; m += 0.1 * kSpeed_m_s) {
       const Eigen::Vector3d shake(noise(random_), noise(random_), noise(random_));
       check_.update(straight_on(mount_deg * kDegree + shake));
     }
@@ -73,7 +74,7 @@ TEST_F(MountCheckTest, AKnockedCameraIsSaidAndTheAlarmHasHysteresis) {
     Eigen::Vector3d off_deg = Eigen::Vector3d::Zero();
     off_deg(axis) = 2.0;
     EXPECT_EQ(drive(250.0, kMount_deg + off_deg).status, MountStatus::kMoved) << axis;
-    // Between the two limits it stays.
+    // Between the two limits the status stays as it is.
     off_deg(axis) = 0.75;
     EXPECT_EQ(drive(250.0, kMount_deg + off_deg).status, MountStatus::kMoved) << axis;
     EXPECT_EQ(drive(250.0, kMount_deg).status, MountStatus::kSteady) << axis;

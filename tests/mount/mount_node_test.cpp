@@ -16,11 +16,11 @@ class MountNodeTest : public testing::Test {
  protected:
   MountNodeTest() { config_.state_file = (folder_.path() / "mount.toml").string(); }
 
-  /// Ten images a second; returns how many messages came. Keeps the last one.
-  int drive(MountNode* node, double way_m, double yaw_deg) {
+  /// Drives at ten images a second, keeps the last message and returns the number of messages.
+  int drive(MountNode* node, double distance_m, double yaw_deg) {
     int num_messages = 0;
     GroundOutput output = test::straight_on({0.0, 0.0, yaw_deg * kDegree});
-    for (double m = 0.0; m < way_m; m += 0.1 * test::kSpeed_m_s) {
+    for (double m = 0.0; m < distance_m; m += 0.1 * test::kSpeed_m_s) {
       output.capture_us = now_us_ += 100'000;
       const mount_t* message = node->update(output);
       if (message == nullptr) continue;
@@ -47,11 +47,11 @@ TEST_F(MountNodeTest, SpeaksOnceASecondAndAtOnceWhenTheStatusChanges) {
   EXPECT_EQ(last_.status, mount_t::STATUS_MOVED);
   EXPECT_STREQ(node.alarm(),
                "the camera has moved on its mount: pitch +0.0, roll +0.0, yaw +1.3 deg")
-      << "the newest four stretches: half of them are old when a degree is passed";
+      << "half of the newest four stretches are old when the angle exceeds a degree";
   drive(&node, 160.0, 3.5);
   EXPECT_STREQ(node.alarm(),
                "the camera has moved on its mount: pitch +0.0, roll +0.0, yaw +3.0 deg")
-      << "follows what is measured";
+      << "the sentence follows the measurement";
   drive(&node, 250.0, 0.5);
   EXPECT_EQ(node.alarm(), nullptr);
 }

@@ -16,12 +16,12 @@ constexpr Contact kNoInset{};
 
 MeasuredBox measured(const StateVector& state, const RoadPlane& plane, double std_px) {
   MeasuredBox box;
-  box.edges_px = see_cuboid(kSceneCamera, plane, state, 0.0)->edges_px;
+  box.edges_px = project_cuboid(kSceneCamera, plane, state, 0.0)->edges_px;
   box.var_px2.setConstant(std_px * std_px);
   return box;
 }
 
-/// Sizes known to a tenth, place not at all.
+/// A prior that knows the sizes to a tenth and carries no information on the position.
 StateEstimate vague(const StateVector& about) {
   StateEstimate prior;
   prior.x = about;
@@ -83,9 +83,9 @@ TEST(BoxFit, OneWrongEdgeLosesItsSay) {
   const StateVector truth = car_at(20.0, 0.0, 0.0);
   StateEstimate prior = vague(truth);
   prior.P.diagonal().segment<3>(kLogWidth).setConstant(1e-4);
-  prior.P.diagonal().head<2>().setConstant(1.0);  // a track of some age
+  prior.P.diagonal().head<2>().setConstant(1.0);  // as in an established track
   MeasuredBox box = measured(truth, plane, 1.0);
-  box.edges_px(3) -= 25.0;  // the lower half is hidden and nobody said so
+  box.edges_px(3) -= 25.0;  // the lower half is hidden, but the detector does not say so
   const auto fit = fit_box(kSceneCamera, plane, kNoInset, box, prior);
   ASSERT_TRUE(fit.ok);
   EXPECT_NEAR(fit.estimate.x(kX), 20.0, 1.5);
@@ -103,7 +103,7 @@ TEST(BoxFit, ACutEdgeCountsOnlyAgainstSolutionsInsideTheImage) {
   ASSERT_TRUE(fit.ok);
   EXPECT_NEAR(fit.estimate.x(kX), 7.0, 0.3);
   EXPECT_NEAR(fit.estimate.x(kY), -4.5, 0.3);
-  // Not cut, the same edge is a contradiction.
+  // When the image does not cut the box, the same edge contradicts the object.
   box.cut[2] = false;
   EXPECT_GT(fit_box(kSceneCamera, plane, kNoInset, box, vague(truth)).chi2, 10.0 * fit.chi2 + 1.0);
 }

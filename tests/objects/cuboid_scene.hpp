@@ -1,4 +1,4 @@
-/// Cuboids on a known road, seen as the box around them.
+/// Cuboids on a known road and the boxes around their images.
 #pragma once
 
 #include <cmath>
@@ -22,9 +22,9 @@ inline StateVector car_at(double x_m, double y_m, double yaw_rad) {
 
 inline constexpr double kSceneInset_m = 0.2;
 
-/// What a perfect detector says; what lies outside the image is cut off.
+/// The detection of an ideal detector, cut at the border of the image.
 inline Detection detect(const StateVector& state, const RoadPlane& plane, std::int32_t track_id) {
-  const auto seen = see_cuboid(kSceneCamera, plane, state, kSceneInset_m);
+  const auto seen = project_cuboid(kSceneCamera, plane, state, kSceneInset_m);
   Detection detection;
   detection.track_id = track_id;
   detection.object_class = ObjectClass::kCar;

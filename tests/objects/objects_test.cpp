@@ -16,7 +16,7 @@ using test::kSceneCamera;
 
 constexpr std::int64_t kStep_us = 100'000;
 
-/// Cars driven at constant velocity past a camera that moves too.
+/// Cars with constant velocities around a moving camera.
 class Drive {
  public:
   explicit Drive(double camera_speed_m_s = 0.0, double yaw_rate_rad_s = 0.0)
@@ -27,7 +27,7 @@ class Drive {
     ids_.push_back(track_id);
   }
 
-  /// One image further on; the boxes of cars in `skip` are left out.
+  /// Advances by one image and omits the boxes of the cars in `skip`.
   const ObjectsOutput& step(bool knows_motion = true, std::int32_t skip = -100,
                             double noise_px = 0.0) {
     DetectionFrame frame;
@@ -69,9 +69,9 @@ class Drive {
 
   [[nodiscard]] const StateVector& car(std::size_t i) const { return cars_[i]; }
   void drive_off(std::size_t i, double speed_m_s) { cars_[i](kVelocityX) = speed_m_s; }
-  /// How high above the camera's road the cars stand.
+  /// Height of the cars' road above the road of the camera.
   void stand_on(double height_m) { kerb_m_ = height_m; }
-  /// Boxes without size above the horizon: no object on the road looks like that.
+  /// Boxes without a size above the horizon, which no object on the road has.
   void hang_in_the_sky(bool hangs) { in_the_sky_ = hangs; }
 
  private:
@@ -132,7 +132,7 @@ TEST(Objects, VelocityIsOverGroundWhileTheCameraDrivesAndTurns) {
   drive.add(moving(car_at(25.0, 0.0, 0.0), 14.0, 0.0), 1);
   const ObjectOutput* last = nullptr;
   for (int k = 0; k < 25; ++k) last = &drive.step().objects[0];
-  ASSERT_TRUE(last->velocity_holds);
+  ASSERT_TRUE(last->velocity_valid);
   EXPECT_NEAR(last->velocity_m_s.norm(), 14.0, 1.0);
   const double heading = std::atan2(drive.car(0)(kVelocityY), drive.car(0)(kVelocityX));
   EXPECT_NEAR(last->yaw_rad, heading, 0.15);
@@ -149,14 +149,14 @@ TEST(Objects, AParkedCarStandsStillWhileTheCameraPasses) {
   EXPECT_NEAR(last->time_to_collision_s, last->position_m.norm() / 10.0, 0.15);
 }
 
-/// A tenth higher than its class: from its size alone it seems a tenth nearer.
+/// A car a tenth higher than its class, whose size alone implies a distance a tenth too short.
 StateVector tall(StateVector car) {
   car(kLogHeight) += std::log(1.12);
   return car;
 }
 
 TEST(Objects, TheCamerasWayShowsTheDistanceOfWhatStands) {
-  // On a pavement: neither its size nor its foot say where it is.
+  // The car is on a pavement, so neither its size nor its foot gives its position.
   double error[2] = {};
   for (const bool knows_motion : {false, true}) {
     Drive drive(10.0);
@@ -185,7 +185,7 @@ TEST(Objects, BoxesThatFitNoObjectLeaveATrackAsItWas) {
     ASSERT_EQ(seen.status, ObjectStatus::kPredicted) << k;
     EXPECT_EQ(seen.reason, ObjectReason::kMisfit);
     EXPECT_LT((seen.position_m - drive.car(0).head<2>()).norm(), 0.5) << k;
-    EXPECT_LT(seen.velocity_cov_m2_s2(0, 0), 0.25) << k << ": it still stands";
+    EXPECT_LT(seen.velocity_cov_m2_s2(0, 0), 0.25) << k << ": the car still stands";
   }
 }
 
@@ -237,7 +237,7 @@ TEST(Objects, ACarThatPullsAwayHasNoTimeToCollision) {
 TEST(Objects, VelocityDoesNotHoldWhileTheCamerasMotionIsUnknown) {
   Drive drive(10.0);
   drive.add(car_at(35.0, -4.0, 0.0), 1);
-  for (int k = 0; k < 15; ++k) EXPECT_FALSE(drive.step(false).objects[0].velocity_holds);
+  for (int k = 0; k < 15; ++k) EXPECT_FALSE(drive.step(false).objects[0].velocity_valid);
   const ObjectOutput relative = drive.step(false).objects[0];
   EXPECT_NEAR(relative.velocity_m_s.x(), -10.0, 2.5);
   EXPECT_NEAR(relative.time_to_collision_s, relative.position_m.norm() / 10.0, 0.4);
@@ -247,14 +247,14 @@ TEST(Objects, CoastsWithGrowingDeviationThenEnds) {
   Drive drive(10.0);
   drive.add(moving(car_at(20.0, 0.0, 0.0), 10.0, 0.0), 1);
   for (int k = 0; k < 10; ++k) drive.step();
-  double deviation = 0.0;
+  double variance = 0.0;
   for (int k = 0; k < 10; ++k) {
     const ObjectsOutput& output = drive.step(true, 1);
     ASSERT_EQ(output.objects.size(), 1u);
     EXPECT_EQ(output.objects[0].status, ObjectStatus::kPredicted);
     EXPECT_EQ(output.objects[0].reason, ObjectReason::kNotSeen);
-    EXPECT_GT(output.objects[0].position_cov_m2(0, 0), deviation);
-    deviation = output.objects[0].position_cov_m2(0, 0);
+    EXPECT_GT(output.objects[0].position_cov_m2(0, 0), variance);
+    variance = output.objects[0].position_cov_m2(0, 0);
   }
   EXPECT_EQ(drive.step(true, 1).objects.size(), 0u);
 }
@@ -277,7 +277,7 @@ TEST(Objects, FollowsBoxesWithoutNumbersByOverlap) {
 
 TEST(Objects, KeepsTheNearestWhenThereAreMoreThanItHolds) {
   Drive drive;
-  // Far ones first: near ones push them out.
+  // The far objects come first, and nearer ones replace them.
   for (int i = 0; i < 40; ++i) drive.add(car_at(64.0 - i, -24.0 + 1.2 * i, 0.0), i);
   const ObjectsOutput& output = drive.step();
   EXPECT_EQ(output.objects.size(), kMaxObjects);
@@ -307,7 +307,7 @@ TEST(Objects, ABoxInTheSkyIsNamedAsNotLocalisedNotPlacedSomewhere) {
   DetectionFrame frame;
   Detection detection = test::detect(car_at(20.0, 0.0, 0.0), test::road(0.0), 3);
   detection.box.top_px = detection.box.bottom_px = 60.0;
-  detection.box.top_px -= 0.001;  // lower than any object
+  detection.box.top_px -= 0.001;  // no object is this low
   detection.box.right_px = detection.box.left_px + 0.001;
   ASSERT_TRUE(frame.detections.push_back(detection));
   ObjectsInput input;
@@ -341,7 +341,7 @@ TEST(Objects, DeviationsAreHonestUnderNoise) {
       }
     }
   }
-  // Sizes are the class's mean here, so that errors are smaller than what is allowed for.
+  // The sizes are the mean of the class here, so errors are smaller than the filter assumes.
   EXPECT_LT(sum / count, 1.5);
   EXPECT_GT(sum / count, 0.05);
 }

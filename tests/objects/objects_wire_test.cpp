@@ -1,4 +1,4 @@
-// detections_t, objects_t and the node between them: round trips, and what must be refused.
+// Tests detections_t, objects_t and the node between them: round trips and refused messages.
 #include "modules/objects/objects_wire.hpp"
 
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ ObjectsOutput sample_objects() {
   object.reason = ObjectReason::kHidden;
   object.position_m = {20.0, -3.0};
   object.position_cov_m2 << 1.0, 0.1, 0.1, 0.2;
-  object.velocity_holds = true;
+  object.velocity_valid = true;
   object.velocity_m_s = {9.0, 0.5};
   object.velocity_cov_m2_s2 << 0.4, 0.0, 0.0, 0.3;
   object.yaw_rad = 0.05;
@@ -129,7 +129,7 @@ ObjectsOutput sample_objects() {
   object.age_s = 1.5;
   EXPECT_TRUE(output.objects.push_back(object));
   object.track_id = 6;
-  object.velocity_holds = false;
+  object.velocity_valid = false;
   EXPECT_TRUE(output.objects.push_back(object));
   return output;
 }
@@ -154,7 +154,7 @@ TEST(ObjectsWire, RoundTripThroughBytesKeepsEverything) {
   EXPECT_EQ(object.velocity_m_s, Eigen::Vector2d(9.0, 0.5));
   EXPECT_EQ(object.size_std_m.x(), 0.4);
   EXPECT_TRUE(std::isnan(object.time_to_collision_s));
-  EXPECT_FALSE(output.objects[1].velocity_holds);
+  EXPECT_FALSE(output.objects[1].velocity_valid);
   bytes.pop_back();
   EXPECT_FALSE(decode_bounded(bytes, &decoded));
 }
@@ -202,7 +202,7 @@ class ObjectsNodeTest : public testing::Test {
     message.camera_height_m = 1.65;
     ASSERT_EQ(node_.take_calibration(message), nullptr);
   }
-  /// Plane and motion of image `seq`, after 1 m of driving per image.
+  /// Sends plane and motion of image `seq`, with 1 m of driving per image.
   const char* take_ground(std::int64_t seq) {
     GroundOutput output;
     output.seq = seq;
@@ -253,7 +253,8 @@ TEST_F(ObjectsNodeTest, LateDetectionsBelongToTheImageTheyWereMadeOf) {
   EXPECT_EQ(published_[0].seq, 4);
   ASSERT_EQ(node_.take_detections(sound(9)), nullptr);
   ASSERT_EQ(published_.size(), 2u);
-  // The cars stayed where they are in the image while we drove 5 m in 0.5 s: they drive as fast.
+  // The cars kept their places in the image while the camera drove 5 m in 0.5 s,
+  // so they are as fast.
   EXPECT_FALSE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0]));
   EXPECT_GT(published_[1].objects[0].velocity_ground_m_s[0], 5.0);
 }
@@ -281,7 +282,7 @@ TEST_F(ObjectsNodeTest, SlowPlanesGiveWhatPromptOnesGive) {
   const std::vector<objects_t> prompt = std::exchange(published_, {});
   node_ = make({});
   calibrate();
-  // WHEN detections of three images wait before the first plane comes:
+  // WHEN detections of three images wait before the first plane arrives,
   for (int seq = 1; seq <= 6; ++seq) {
     ASSERT_EQ(node_.take_detections(sound(seq)), nullptr);
     if (seq < 3) continue;
@@ -298,10 +299,10 @@ TEST_F(ObjectsNodeTest, DetectionsWhosePlaneWasLostGoOnWithoutItInOrder) {
   calibrate();
   for (int seq = 1; seq <= 3; ++seq) ASSERT_EQ(node_.take_detections(sound(seq)), nullptr);
   EXPECT_TRUE(published_.empty());
-  // WHEN there is no room to wait any more, the oldest goes on;
+  // WHEN no more detections can wait, the oldest are processed.
   ASSERT_EQ(node_.take_detections(sound(4)), nullptr);
   ASSERT_EQ(published_.size(), 1u);
-  // WHEN the plane of the third comes, that of the second will not.
+  // WHEN the plane of the third image arrives, that of the second is lost.
   ASSERT_EQ(take_ground(3), nullptr);
   ASSERT_EQ(published_.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(published_[i].seq, static_cast<int>(i) + 1);
@@ -322,7 +323,7 @@ TEST_F(ObjectsNodeTest, KeepsToTheCalibratedPlaneWhenAskedTo) {
     ASSERT_EQ(published_.size(), static_cast<std::size_t>(seq));
     EXPECT_EQ(published_.back().objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
   }
-  EXPECT_FALSE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0])) << "motion is used";
+  EXPECT_FALSE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0])) << "the motion is used";
 }
 
 TEST_F(ObjectsNodeTest, BeginsAnewWithItsSource) {
@@ -334,7 +335,7 @@ TEST_F(ObjectsNodeTest, BeginsAnewWithItsSource) {
   ASSERT_EQ(take_ground(1), nullptr);
   ASSERT_EQ(node_.take_detections(sound(1)), nullptr);
   ASSERT_EQ(published_.size(), 4U);
-  EXPECT_EQ(published_.back().objects[0].age_s, 0.0) << "no track of the old time";
+  EXPECT_EQ(published_.back().objects[0].age_s, 0.0) << "old tracks are gone";
 }
 
 TEST_F(ObjectsNodeTest, RefusesWhatComesTooEarlyTwiceOrOutOfOrder) {

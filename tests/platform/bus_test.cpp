@@ -25,7 +25,7 @@ void put_i32(Bytes* bytes, std::size_t at, std::int32_t value) {
     (*bytes)[at + i] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> (24 - 8 * i));
 }
 
-// Refused before the generated decoder may allocate: a "count" of 2^31 - 1 would ask for terabytes.
+// A count of 2^31 - 1 has to be refused before the generated decoder allocates terabytes for it.
 template <typename Message>
 void expect_refused_at_every_flaw(const Message& message) {
   const Bytes whole = encoded(message);
@@ -42,7 +42,7 @@ void expect_refused_at_every_flaw(const Message& message) {
   other[0] ^= 1U;
   EXPECT_FALSE(decode_bounded(other, &out)) << "another type's fingerprint";
   std::mt19937 random(7);
-  for (int i = 0; i < 5'000; ++i) {  // flipped bytes may decode or not; they may not throw or crash
+  for (int i = 0; i < 5'000; ++i) {  // flipped bytes may decode, but must not throw or crash
     Bytes noisy = whole;
     for (int k = 0; k < 4; ++k)
       noisy[random() % noisy.size()] = static_cast<std::uint8_t>(random());
@@ -105,7 +105,7 @@ TEST(BoundedDecode, RefusesHostileCountsAndTextLengths) {
     objects_t objects;
     EXPECT_FALSE(decode_bounded(list, &objects)) << hostile;
     Bytes text = encoded(sample_health());
-    put_i32(&text, 16, hostile);  // length of `process`
+    put_i32(&text, 16, hostile);  // the length of `process`
     process_health_t health;
     EXPECT_FALSE(decode_bounded(text, &health)) << hostile;
   }
@@ -139,7 +139,7 @@ TEST_F(BusTest, CarriesAMessageUnchanged) {
   sent.seq = -7;
   sent.height_m = 1.0 / 3.0;
   sent.cues[2].n3 = -0.0;
-  sent.cov[2][1] = 5e-324;  // the smallest number there is
+  sent.cov[2][1] = 5e-324;  // the smallest positive number
   EXPECT_TRUE(out.publish(sent));
   EXPECT_TRUE(bus_.handle(1000));
   EXPECT_EQ(encoded(sent), encoded(received));
@@ -211,7 +211,7 @@ TEST_F(BusTest, CountsAMessageThatWaitedTooLongAsLate) {
   usleep(60'000);
   bus_.handle(0, monotonic_us() - 1'000);
   EXPECT_EQ(1, counters_.num_late)
-      << "this thread idled a moment ago: the stamp of arrival is wrong";
+      << "this thread was idle a moment ago, so the time stamp of the arrival is wrong";
 }
 
 TEST(Bus, RefusesANetworkThatDoesNotExist) {

@@ -29,7 +29,7 @@ struct Settings {
   }
 };
 
-// What loading `text` says, with the file's own name replaced; empty when it is accepted.
+// The error of loading `text`, with the file's name replaced; empty when the text is accepted.
 std::string refusal(const std::string& text, Settings* settings = nullptr) {
   const test::TempFile file(".toml", text);
   Settings own;
@@ -99,7 +99,7 @@ TEST(Config, RefusesKeysThatNobodyOwnsAndSuggestsTheNearest) {
   EXPECT_EQ("bad.toml:1: weather is not a known key", refusal("weather = 'fine'\n"));
   EXPECT_EQ("bad.toml:2: wheels is not a known section", refusal("vo.max_tracks=100\n[wheels]\n"));
   EXPECT_EQ("bad.toml:1: vo is not a known key", refusal("vo = 3\n"));
-  EXPECT_EQ("", refusal("[camera]\n[camera.lens]\n")) << "an empty section of ours is no error";
+  EXPECT_EQ("", refusal("[camera]\n[camera.lens]\n")) << "an empty known section is no error";
 }
 
 TEST(Config, ReportsTheFirstUnknownKeyOfTheFile) {
@@ -116,7 +116,7 @@ TEST(Config, SaysWhyAFileCannotBeRead) {
   Settings s;
   try {
     load_config("/nowhere/at/all.toml", &s);
-    FAIL() << "accepted a file that is not there";
+    FAIL() << "accepted a file that does not exist";
   } catch (const ConfigError& error) {
     EXPECT_STREQ("cannot read /nowhere/at/all.toml: No such file or directory", error.what());
   }
@@ -130,7 +130,7 @@ TEST(Config, SaysWhyAFileCannotBeRead) {
 
 TEST(Config, WritesWhatItReads) {
   Settings s;
-  s.height_m = 0.1 + 0.2;  // needs 17 digits
+  s.height_m = 0.1 + 0.2;  // this sum needs 17 digits
   s.max_tracks = 2000;
   s.rectify = true;
   s.model = "fisheye";
@@ -157,7 +157,7 @@ TEST(Config, DefaultTomlIsTheGeneratedText) {
   std::ifstream in(std::string(PLUMB_SOURCE_DIR) + "/config/default.toml", std::ios::binary);
   const std::string committed{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(render_config(PlumbConfig{}), committed)
-      << "renew it: plumb-vo --print-config > config/default.toml";
+      << "update it with: plumb-vo --print-config > config/default.toml";
 }
 
 TEST(Config, EveryDefaultIsInsideItsOwnRange) {

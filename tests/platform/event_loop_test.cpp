@@ -16,7 +16,7 @@ TEST(EventLoop, KeepsAPeriodWithoutDrift) {
   const std::int64_t start_us = monotonic_us();
   loop.every(20'000, [&] {
     fired_us.push_back(monotonic_us() - start_us);
-    usleep(8'000);  // work inside the callback does not push the next one back
+    usleep(8'000);  // the duration of a callback must not delay the next one
     if (fired_us.size() == 10) loop.stop();
   });
   loop.run();
@@ -32,7 +32,7 @@ TEST(EventLoop, DoesNotLetAFloodStarveATimer) {
   ASSERT_EQ(1, ::write(ends[1], "x", 1));
   int rounds = 0;
   int ticks = 0;
-  loop.watch(ends[0], [&] { ++rounds; });  // never read: always ready
+  loop.watch(ends[0], [&] { ++rounds; });  // is never read and so is always ready
   loop.every(10'000, [&] {
     if (++ticks == 5) loop.stop();
   });
@@ -65,16 +65,16 @@ TEST(EventLoop, KnowsSinceWhenItHasBeenBusy) {
   EventLoop loop;
   int ends[2];
   ASSERT_EQ(0, ::pipe(ends));
-  loop.watch(ends[0], [] { usleep(5'000); });  // never read: always ready
+  loop.watch(ends[0], [] { usleep(5'000); });  // is never read and so is always ready
   const std::int64_t start_us = monotonic_us();
   const auto a = loop.timer([&] {
-    EXPECT_GE(loop.busy_since_us(), start_us + 20'000) << "it slept until this timer";
+    EXPECT_GE(loop.busy_since_us(), start_us + 20'000) << "the loop slept until this timer";
     ASSERT_EQ(1, ::write(ends[1], "x", 1));
   });
   loop.arm_at(a, start_us + 20'000);
   loop.every(100'000, [&] { loop.stop(); });
   loop.run();
-  EXPECT_LT(loop.busy_since_us(), start_us + 60'000) << "and was busy from then on";
+  EXPECT_LT(loop.busy_since_us(), start_us + 60'000) << "the loop was busy from then on";
   ::close(ends[0]);
   ::close(ends[1]);
 }

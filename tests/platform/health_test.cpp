@@ -53,7 +53,7 @@ TEST_F(HealthTest, IsDegradedForASecondAfterALossOrRejection) {
   counters_.num_dropped += 3;
   counters_.reject("too green");
   EXPECT_EQ(HealthState::kDegraded, state_at(3'000'000));
-  EXPECT_EQ("3 messages lost", reason_) << "a loss is graver than a rejection";
+  EXPECT_EQ("3 messages lost", reason_) << "a loss is more serious than a rejection";
 }
 
 TEST_F(HealthTest, PutsAConditionBeforeEverythingElse) {

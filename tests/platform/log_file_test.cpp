@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Four events; the data of the third is long enough that its end is far from its beginning.
+// A log of four events. The third one is long, so that its end is far from its beginning.
 constexpr std::size_t kDataBytes[] = {3, 0, 100'000, 8};
 constexpr std::int64_t kHeader = 28;
 
@@ -27,7 +27,7 @@ void write_sample(const std::string& path) {
   log.close();
 }
 
-// Offset of event `i` in the sample.
+// The offset of event `i` in the sample.
 std::int64_t offset_of(std::size_t i) {
   std::int64_t offset = 0;
   for (std::size_t k = 0; k < i; ++k)
@@ -37,7 +37,7 @@ std::int64_t offset_of(std::size_t i) {
 
 struct Contents {
   std::vector<std::int64_t> times;
-  std::vector<std::string> problems;  ///< without the file's name
+  std::vector<std::string> problems;  ///< without the name of the file
 };
 
 Contents read_all(const std::string& path) {
@@ -81,7 +81,7 @@ TEST(LogFile, ReadsWhatItWrote) {
       ASSERT_EQ(static_cast<std::uint8_t>(i + k), event.data[k]);
   }
   EXPECT_FALSE(reader.next(&event));
-  EXPECT_FALSE(reader.next(&event)) << "the end stays the end";
+  EXPECT_FALSE(reader.next(&event)) << "a second read at the end also fails";
   EXPECT_TRUE(reader.problems().empty());
   EXPECT_EQ(4, reader.num_events());
 }
@@ -105,7 +105,7 @@ TEST(LogFile, KeepsEveryWholeEventOfATruncatedLogWhereverItIsCut) {
   write_sample(whole.path());
   const std::string bytes = whole.read();
   const test::TempFile cut(".lcm");
-  // Every length around the borders, and a coarse step through the long event.
+  // Cuts at every length around the borders of events, and in coarse steps through the long one.
   for (std::size_t length = 1; length < bytes.size(); length += length % 997 < 200 ? 1 : 499) {
     cut.write(bytes.substr(0, length));
     std::size_t whole_events = 0;
@@ -145,7 +145,7 @@ TEST(LogFile, SkipsDamagedLengthsAndLosesOnlyThatEvent) {
   EXPECT_EQ((Problems{"byte 37: data length 2130706432 is outside [0, 67108864]"}),
             contents.problems);
 
-  // Plausible, but it swallows the event behind.
+  // This length is plausible but covers the next event as well.
   contents = read_damaged([&](std::string* bytes) { (*bytes)[data_length + 3] = '\x40'; });
   EXPECT_EQ((Times{1000, 1002, 1003}), contents.times);
   EXPECT_EQ((Problems{"byte 37: the lengths of this event are damaged"}), contents.problems);
@@ -177,7 +177,7 @@ TEST(LogFile, ReportsAnEmptyFileAndOneThatIsNoLog) {
 TEST(LogFile, SaysWhyAFileCannotBeOpened) {
   try {
     LogReader reader("/nowhere/drive.lcm");
-    FAIL() << "opened a file that is not there";
+    FAIL() << "opened a file that does not exist";
   } catch (const LogError& error) {
     EXPECT_STREQ("/nowhere/drive.lcm: cannot read: No such file or directory", error.what());
   }
@@ -192,7 +192,7 @@ TEST(LogFile, ReportsAFullDisk) {
   try {
     for (int i = 0; i < 4; ++i) log.write(i, "CAMERA", data);
     log.close();
-    FAIL() << "a full disk went unnoticed";
+    FAIL() << "a full disk was not reported";
   } catch (const LogError& error) {
     EXPECT_EQ(0U, std::string(error.what()).find("/dev/full: cannot write: No space left"))
         << error.what();

@@ -1,4 +1,4 @@
-// The process shell, seen from outside: the real plumb-ground and plumb-vo.
+// Tests the process shell from outside, with the real plumb-ground and plumb-vo.
 #include "platform/process.hpp"
 
 #include <fcntl.h>
@@ -68,7 +68,7 @@ TEST_P(ProcessTest, SaysSoWhenThereIsNoNetwork) {
       << child.output();
 }
 
-// A program that waits in open() for its settings has no event loop yet.
+// A program that waits in open() for its settings does not have an event loop yet.
 TEST_P(ProcessTest, StopsCleanlyWhenAskedBeforeItServes) {
   const test::TempFile fifo(".toml", "");
   std::filesystem::remove(fifo.path());
@@ -84,7 +84,7 @@ TEST_P(ProcessTest, StopsCleanlyWhenAskedBeforeItServes) {
   }
 }
 
-// What one program said about itself until the end.
+// The health messages of one program until its end.
 struct Life {
   std::vector<process_health_t> reports;
   int exit_code = -1;

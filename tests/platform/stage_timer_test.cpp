@@ -11,7 +11,7 @@ namespace {
 
 TEST(DurationHistogram, GivesQuantilesWithinTwoPercent) {
   DurationHistogram h;
-  for (int i = 1; i <= 1000; ++i) h.add(i * 10.0);  // 10 us .. 10 ms
+  for (int i = 1; i <= 1000; ++i) h.add(i * 10.0);  // from 10 us to 10 ms
   EXPECT_EQ(1000, h.num_samples());
   EXPECT_NEAR(5000.0, h.quantile_us(0.5), 100.0);
   EXPECT_NEAR(9900.0, h.quantile_us(0.99), 198.0);
@@ -23,7 +23,7 @@ TEST(DurationHistogram, GivesQuantilesWithinTwoPercent) {
 TEST(DurationHistogram, HoldsEveryDurationHoweverSmallOrLarge) {
   DurationHistogram h;
   h.add(0.0);
-  h.add(-1.0);  // a clock that went back
+  h.add(-1.0);  // the clock stepped back
   h.add(1e12);
   EXPECT_EQ(3, h.num_samples());
   EXPECT_EQ(1e12, h.max_us());
@@ -47,7 +47,7 @@ TEST(StageTimer, SumsAStageThatRunsTwiceInAFrame) {
     timer.mark("track");
     timer.end();
   }
-  ASSERT_EQ(3U, timer.num_stages()) << "track, solve, total";
+  ASSERT_EQ(3U, timer.num_stages()) << "the stages are track, solve and total";
   EXPECT_STREQ("track", timer.stats(0).name);
   EXPECT_STREQ("solve", timer.stats(1).name);
   EXPECT_STREQ("total", timer.stats(2).name);
@@ -69,13 +69,13 @@ TEST(StageTimer, TellsStagesApartByTextNotByAddress) {
 
 TEST(StageTimer, LeavesOutTheTimeBetweenFramesAndFramesGivenUp) {
   StageTimer timer;
-  timer.mark("outside");  // no frame has begun
-  timer.begin();          // given up: never ended
+  timer.mark("outside");  // no frame was begun
+  timer.begin();          // this frame is abandoned
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   timer.begin();
   timer.mark("track");
   timer.end();
-  timer.end();  // nothing to end
+  timer.end();  // there is no frame to end
   ASSERT_EQ(2U, timer.num_stages());
   EXPECT_EQ(1, timer.total().num_samples);
   EXPECT_LT(timer.total().max_us, 15'000.0);

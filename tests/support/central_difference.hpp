@@ -1,11 +1,11 @@
-/// Numeric derivatives to hold analytic ones against.
+/// Numeric derivatives to check analytic ones.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace plumb::test {
 
-/// d f / d x by central differences with the same step for every component of x.
+/// Computes d f / d x by central differences with the same step for every component of x.
 template <int kOut, int kIn, typename Function>
 Eigen::Matrix<double, kOut, kIn> central_difference(const Function& f,
                                                     const Eigen::Matrix<double, kIn, 1>& x,

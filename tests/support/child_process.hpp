@@ -1,4 +1,5 @@
-/// One of the project's programs as a child: started, signalled, waited for, its output read.
+/// Runs one of the project's programs as a child process: starts it, sends signals, waits for it
+/// and reads its output.
 #pragma once
 
 #include <fcntl.h>
@@ -17,7 +18,8 @@ namespace plumb::test {
 
 class ChildProcess {
  public:
-  /// Starts `arguments[0]`, a program in bin/ or a path. Its stdout and stderr are kept together.
+  /// Starts `arguments[0]`, which is a program in bin/ or a path.
+  /// stdout and stderr are collected together.
   explicit ChildProcess(std::vector<std::string> arguments) {
     if (arguments[0].find('/') == std::string::npos && arguments[0].rfind("plumb-", 0) == 0)
       arguments[0] = std::string(PLUMB_BIN_DIR) + "/" + arguments[0];
@@ -52,7 +54,8 @@ class ChildProcess {
 
   void signal(int number) const { ::kill(pid_, number); }
 
-  /// Exit code; 128 + signal when killed by one; -1 when it still runs after `timeout_s`.
+  /// Returns the exit code, 128 + signal when a signal ended the program, or -1 when it still runs
+  /// after `timeout_s`.
   int wait(double timeout_s = 20.0) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
     while (!exited_) {

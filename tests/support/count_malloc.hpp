@@ -1,5 +1,6 @@
-/// Counts every malloc of this program, Eigen's and operator new's included. Include it in exactly
-/// one file of a test program. Under a sanitizer, which owns malloc, nothing is counted.
+/// Counts every malloc of this program, including those of Eigen and operator new. Include this in
+/// exactly one file of a test program. Under a sanitizer,
+/// which replaces malloc, nothing is counted.
 #pragma once
 
 #include <atomic>
@@ -19,7 +20,7 @@ inline constexpr bool kCountsMallocs = true;
 }  // namespace plumb::test
 
 #if !defined(__SANITIZE_ADDRESS__)
-// glibc's own entry points: replacing malloc and calling on is documented to work with these.
+// glibc documents these entry points for programs that replace malloc.
 extern "C" void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier)
 extern "C" void* __libc_calloc(std::size_t, std::size_t);    // NOLINT(bugprone-reserved-identifier)
 extern "C" void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)

@@ -1,4 +1,4 @@
-/// Checks the sentence that an error carries, not only that there is one.
+/// Checks the sentence of an error, not only that an error occurs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace plumb::test {
 
-/// What InputError says, or "" when nothing was thrown.
+/// The sentence of the InputError that is thrown, or "" when none is.
 template <typename Action>
 std::string input_error_of(Action action) {
   try {

@@ -1,4 +1,5 @@
-/// Bytes of the heap in use: what malloc has handed out and not got back. Zero where a sanitizer owns malloc.
+/// The number of heap bytes in use, which malloc allocated and free did not release. It is zero
+/// where a sanitizer replaces malloc.
 #pragma once
 
 #include <malloc.h>

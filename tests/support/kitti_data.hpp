@@ -1,4 +1,4 @@
-/// Where the real KITTI drives are, if this machine has them.
+/// Finds the real KITTI drives, if this machine has them.
 #pragma once
 
 #include <cstdlib>
@@ -9,8 +9,9 @@
 
 namespace plumb::test {
 
-/// Folder of one real sequence ("odometry/sequences/04_000-050", "raw/drive0039_024-400"), empty when not here.
-/// Looks in $PLUMBLINE_DATA, else in ../shared/data beside the checkout.
+/// Folder of one real sequence ("odometry/sequences/04_000-050", "raw/drive0039_024-400"), or an
+/// empty path when it does not exist. Looks in $PLUMBLINE_DATA or, when that is not set, in
+/// ../shared/data beside the checkout.
 inline std::filesystem::path kitti_sequence(const std::string& name) {
   const char* root = std::getenv("PLUMBLINE_DATA");
   const std::filesystem::path base =
@@ -21,7 +22,7 @@ inline std::filesystem::path kitti_sequence(const std::string& name) {
   return std::filesystem::is_directory(folder, ignored) ? folder : std::filesystem::path();
 }
 
-/// What a test prints when it skips for want of data.
+/// The message of a test that is skipped because the data is missing.
 inline constexpr const char* kNoKitti =
     "real KITTI frames are not here: set PLUMBLINE_DATA to run this test";
 

@@ -1,4 +1,4 @@
-/// Small KITTI sequences on disk.
+/// Writes small KITTI sequences to disk.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,7 +10,7 @@
 
 namespace plumb::test {
 
-/// Every image differs, so that none can stand for another.
+/// All images differ, so that a wrong order is detected.
 inline cv::Mat test_image(int frame, int width_px = 96, int height_px = 72) {
   cv::Mat image(height_px, width_px, CV_8UC1);
   for (int v = 0; v < height_px; ++v)
@@ -24,7 +24,7 @@ inline void write_image(const TempFolder& folder, const std::string& name, const
   cv::imwrite((folder / name).string(), image);
 }
 
-/// times.txt with one row per image, 0.1 s apart from `first_s` on.
+/// Writes times.txt with one row per image at intervals of 0.1 s from `first_s` on.
 inline void write_times(const TempFolder& folder, const std::string& name, int num_rows,
                         double first_s = 0.0) {
   std::string rows;
@@ -36,8 +36,8 @@ inline constexpr const char* kCalibration =
     "P0: 80 0 48 0 0 80 36 0 0 0 1 0\n"
     "P2: 80 0 48 4.8 0 80 36 0 0 0 1 0\n";
 
-/// seq/image_0/NNNNNN.png from `first` on, calib.txt and times.txt (0.1 s apart) with one row per
-/// image.
+/// Writes seq/image_0/NNNNNN.png from `first` on, calib.txt, and times.txt with one row per image
+/// at intervals of 0.1 s.
 inline std::filesystem::path write_odometry(const TempFolder& folder, int num_frames,
                                             int first = 0) {
   for (int i = first; i < first + num_frames; ++i)
@@ -53,7 +53,8 @@ inline constexpr const char* kRawCalibration =
     "S_rect_00: 9.600000e+01 7.200000e+01\n"
     "P_rect_00: 80 0 48 0 0 80 36 0 0 0 1 0\n";
 
-/// date/drive/image_00/data/NNNNNNNNNN.png, time stamps and, one folder up, the camera calibration.
+/// Writes date/drive/image_00/data/NNNNNNNNNN.png, the time stamps and, one folder above, the
+/// camera calibration.
 inline std::filesystem::path write_raw(const TempFolder& folder, int num_frames) {
   std::string times;
   for (int i = 0; i < num_frames; ++i) {
@@ -65,7 +66,8 @@ inline std::filesystem::path write_raw(const TempFolder& folder, int num_frames)
   return folder / "date/drive";
 }
 
-/// An odometry sequence whose files a test changes one by one; focal lengths and centre all differ.
+/// An odometry sequence whose files a test changes one at a time. Focal lengths and principal point
+/// differ from each other.
 class KittiFolder {
  public:
   static constexpr int kWidth = 96;
@@ -85,7 +87,7 @@ class KittiFolder {
     test::write_image(folder_, name_of(number), pixels);
   }
   void write_image(int number) const { write_image(number, image(number)); }
-  /// `count` images from `first` on, the first at `first` / 10 s.
+  /// Writes `count` images from number `first` on; the time of the first is `first` / 10 s.
   void fill(int first, int count) const {
     for (int i = first; i < first + count; ++i) write_image(i);
     write_times(folder_, "times.txt", count, 0.1 * first);

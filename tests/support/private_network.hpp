@@ -1,4 +1,5 @@
-/// A network of this test's own: multicast cannot leave it, and parallel tests cannot hear each other.
+/// Gives a test its own network, so that multicast cannot leave it and parallel tests do not
+/// receive each other's messages.
 #pragma once
 
 #include <sched.h>
@@ -8,8 +9,9 @@
 
 namespace plumb::test {
 
-/// Moves this process, and children it starts later, to an empty network namespace with multicast on its loopback.
-/// False where that is not permitted. @pre no thread was started yet
+/// Moves this process and its later children to an empty network namespace with multicast on its
+/// loopback. Returns false where that is not permitted.
+/// @pre no thread was started yet
 inline bool enter_private_network() {
   if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return false;
   return std::system(

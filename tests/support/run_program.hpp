@@ -1,4 +1,4 @@
-/// Runs one of our programs the way a user does.
+/// Runs one of the project's programs as a user would.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct ProgramResult {
   std::string err;
 };
 
-/// `text` as one word of a shell command.
+/// Quotes `text` as one word of a shell command.
 inline std::string shell_word(const std::string& text) {
   std::string word("'");
   for (const char c : text) {
@@ -29,7 +29,7 @@ inline std::string shell_word(const std::string& text) {
   return word;
 }
 
-/// `arguments` go through the shell. `folder` takes the captured output.
+/// Runs the program with `arguments`, which the shell parses. The output is captured in `folder`.
 inline ProgramResult run_program(const TempFolder& folder, const std::string& name,
                                  const std::string& arguments, double timeout_s = 100.0) {
   const std::string out = (folder / "stdout.txt").string();

@@ -1,7 +1,10 @@
-/// A rendered street of textured planes, with exact truth: road, kerb-side walls and a far backdrop.
+/// Renders a street of textured planes with exact truth:
+/// the road, walls at the kerbs and a far backdrop.
 ///
-/// Frames   world: cam of a level camera at the street's start: x right, y down, z forward.
-/// Units    metres. Pixels follow CameraModel, residual radial term included.
+/// Frames:
+///   world: cam of a level camera at the start of the street; x right, y down, z forward.
+/// Units:
+///   Metres. Pixels follow CameraModel, including its radial distortion.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +19,7 @@
 
 namespace plumb::test {
 
-/// Half of KITTI's resolution, to keep rendering quick.
+/// A camera with half of KITTI's resolution, to keep rendering fast.
 inline CameraModel scene_camera() {
   CameraModel camera;
   camera.width_px = 620;
@@ -31,11 +34,11 @@ struct SceneOptions {
   double camera_height_m = 1.65;
   double wall_left_m = 7.0;
   double wall_right_m = 9.0;
-  double backdrop_m = 150.0;  ///< ahead of the street's start
+  double backdrop_m = 150.0;  ///< distance from the start of the street
   double contrast_grey = 60.0;
 };
 
-/// An image with its pixels.
+/// An image that owns its pixels.
 struct RenderedImage {
   std::vector<std::uint8_t> pixels;
   int width_px = 0;
@@ -52,13 +55,14 @@ class Scene {
     }
   }
 
-  /// @param noise_std_grey  sensor noise, drawn from `seed`
+  /// Renders an image with sensor noise of `noise_std_grey`, drawn from `seed`.
   [[nodiscard]] RenderedImage render(const Se3& T_world_cam, double noise_std_grey = 0.0,
                                      unsigned seed = 1, double gain = 1.0) const {
     return render_rows([&T_world_cam](int) { return T_world_cam; }, noise_std_grey, seed, gain);
   }
 
-  /// Under the camera's rolling shutter, while it moves on by `step` per `image_s`.
+  /// Renders an image with the camera's rolling shutter while the
+  /// camera moves by `step` per `image_s`.
   [[nodiscard]] RenderedImage render_rolling(const Se3& T_world_cam, const Se3& step,
                                              double image_s) const {
     const auto pose_of_row = [&](int v) {
@@ -91,7 +95,7 @@ class Scene {
   }
 
   struct Hit {
-    double range = 1e9;  // in units of the ray
+    double range = 1e9;  // in lengths of the ray
     double a = 0.0, b = 0.0;
     std::uint32_t surface = 0;
   };
@@ -117,7 +121,7 @@ class Scene {
     return (1.0 - b) * top + b * low;
   }
 
-  // Octaves finer than two pixels are left out, so that nothing aliases.
+  // Octaves finer than two pixels are omitted to avoid aliasing.
   double texture(const Hit& hit, double footprint) const {
     double sum = 0.0;
     double wavelength = 4.0;
@@ -142,7 +146,7 @@ class Scene {
     meet(options_.wall_right_m - origin.x(), ray.x(), 3, 1, 2);
     meet(options_.backdrop_m - origin.z(), ray.z(), 4, 0, 1);
     if (hit.range > 1e8) return 128.0;
-    // Grazing surfaces stretch: the footprint grows with the slope.
+    // The footprint of a pixel grows with the slope of the surface against the ray.
     const double slope = hit.surface == 1   ? std::abs(ray.y())
                          : hit.surface == 4 ? 1.0
                                             : std::abs(ray.x());
@@ -155,7 +159,8 @@ class Scene {
   std::vector<Eigen::Vector3d> rays_;
 };
 
-/// Poses T_world_cam of a drive: `speed_m` forward per frame, turning by `yaw_rad` per frame (right positive).
+/// Poses T_world_cam of a drive that moves forward by `speed_m` and turns by `yaw_rad` (right
+/// positive) per frame.
 inline std::vector<Se3> drive(int num_frames, double speed_m, double yaw_rad = 0.0) {
   std::vector<Se3> poses{Se3{}};
   const Se3 step{exp_so3({0.0, yaw_rad, 0.0}), {0.0, 0.0, speed_m}};

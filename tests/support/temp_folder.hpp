@@ -1,4 +1,4 @@
-/// Folders and files that are there for one test.
+/// Folders and files that exist for one test.
 #pragma once
 
 #include <unistd.h>
@@ -46,7 +46,7 @@ inline std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// One file with given content in a folder of its own.
+/// One file with given content in its own folder.
 class TempFile {
  public:
   explicit TempFile(const std::string& suffix, const std::string& content = "")

@@ -37,7 +37,7 @@ TEST(Kitti2LcmProgram, ExitsWithTwoAndOneSentenceOnBadInput) {
       {seq + out + " --residual-k1 much", "--residual-k1"},
       {seq + out + " --camera 2", "neither image_2 nor image_02/data"},
       {seq + out + " --poses " + seq + "/none.txt", "none.txt"},
-      {(folder / "empty").string() + out, "holds no image"},
+      {(folder / "empty").string() + out, "has no image"},
       {(folder / "nothing").string() + out, "is not a folder"},
       {seq + " --out " + (folder / "no/such/o.lcm").string(), "cannot write"}};
   for (const auto& [arguments, expected] : cases) {

@@ -42,7 +42,7 @@ image_t jpeg_message() {
   return message;
 }
 
-// What reading (and then decoding) the changed message says.
+// The reason why the changed message is refused when it is read and decoded.
 std::string refusal(image_t message, const std::function<void(image_t*)>& change) {
   change(&message);
   const Bytes bytes = encoded(message);
@@ -162,7 +162,7 @@ TEST(ImageWire, RefusesBrokenJpeg) {
   EXPECT_EQ("JPEG is cut off", jpeg([](image_t* m) { m->data.resize(m->data.size() / 2); }));
   EXPECT_EQ("compressed image is empty", jpeg([](image_t* m) { m->data.clear(); }));
   EXPECT_EQ("JPEG header contradicts the image", jpeg([](image_t* m) { m->data.assign(100, 0); }));
-  // A header that claims 65535 x 65535 would make the decoder ask for 4 GB.
+  // A header that claims 65535 x 65535 pixels would make the decoder allocate 4 GB.
   EXPECT_EQ("JPEG header contradicts the image", jpeg([](image_t* m) {
               for (std::size_t i = 2; i + 9 < m->data.size(); ++i)
                 if (m->data[i] == 0xFF && m->data[i + 1] == 0xC0)
@@ -216,7 +216,7 @@ TEST(CalibrationWire, RoundTrips) {
   back = camera;
   back.camera_height_m = 0.0;
   EXPECT_FALSE(same_camera(camera, back));
-  EXPECT_EQ(nullptr, from_wire(to_wire(back, 5), &back)) << "0: the rig does not say";
+  EXPECT_EQ(nullptr, from_wire(to_wire(back, 5), &back)) << "0 means that the height is unknown";
 }
 
 TEST(CalibrationWire, RefusesWhatIsNoCamera) {
@@ -240,7 +240,7 @@ TEST(CalibrationWire, RefusesWhatIsNoCamera) {
   EXPECT_TRUE(refused([](CameraModel* c) { c->residual_k2 = -2.0; }));
   EXPECT_TRUE(refused([](CameraModel* c) { c->camera_height_m = 145.0; }));
   EXPECT_TRUE(refused([](CameraModel* c) { c->readout_s = -0.01; }));
-  EXPECT_TRUE(refused([](CameraModel* c) { c->readout_s = 20.0; }));  // not milliseconds
+  EXPECT_TRUE(refused([](CameraModel* c) { c->readout_s = 20.0; }));  // this would be milliseconds
   EXPECT_TRUE(refused([=](CameraModel* c) { c->camera_height_m = nan; }));
 }
 

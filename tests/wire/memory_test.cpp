@@ -1,4 +1,4 @@
-// From bytes to bytes without the heap: decode, from_wire, to_wire, encode.
+// Checks that decode, from_wire, to_wire and encode do not allocate.
 #include <gtest/gtest.h>
 
 #include "modules/camera/image_wire.hpp"
@@ -13,7 +13,7 @@
 namespace plumb {
 namespace {
 
-// Allocations of the second run of `work`; the first may warm up.
+// Number of allocations in the second run of `work`; the first may allocate once.
 template <typename Work>
 std::int64_t allocations_of(Work work) {
   work();

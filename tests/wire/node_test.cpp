@@ -1,4 +1,5 @@
-// The nodes of vo and ground: calibration rules, what is refused, and how motions find their images.
+// Tests the nodes of vo and ground: calibration rules,
+// refused messages, and the pairing of motions with images.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -39,7 +40,7 @@ class VoNodeTest : public testing::Test {
 
 TEST_F(VoNodeTest, SaysNoCalibrationUntilOneArrives) {
   EXPECT_EQ("image came before a calibration", take(image_bytes(1)));
-  ASSERT_NE(nullptr, node_->motion()) << "those downstream learn why there is nothing";
+  ASSERT_NE(nullptr, node_->motion()) << "later processes learn why there is no motion";
   EXPECT_EQ(vo_motion_t::STATUS_LOST, node_->motion()->status);
   EXPECT_EQ(vo_motion_t::REASON_NO_CALIBRATION, node_->motion()->reason);
   EXPECT_EQ(1, node_->motion()->seq);
@@ -57,7 +58,8 @@ TEST_F(VoNodeTest, TakesTheFirstCalibrationAndRefusesADifferentOne) {
                node_->take_calibration(to_wire(other, 0)));
   EXPECT_FALSE(node_->calibrated());
   EXPECT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0)));
-  EXPECT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 1'000'000))) << "once a second";
+  EXPECT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 1'000'000)))
+      << "the calibration is repeated once a second";
   other.fx_px = 251.0;
   EXPECT_STREQ("calibration differs from the first one; restart to use it",
                node_->take_calibration(to_wire(other, 0)));
@@ -74,7 +76,7 @@ TEST_F(VoNodeTest, RefusesWrongImagesAndGoesOn) {
   EXPECT_EQ(nullptr, node_->motion());
   EXPECT_EQ("", take(image_bytes(7)));
   EXPECT_EQ(3, node_->num_lost());
-  EXPECT_EQ("", take(image_bytes(0))) << "a source that began anew is VO's to handle";
+  EXPECT_EQ("", take(image_bytes(0))) << "VO handles a source that restarts";
   EXPECT_NE(nullptr, node_->motion());
 }
 
@@ -99,7 +101,7 @@ class GroundNodeTest : public testing::Test {
     message.num_window = 0;
     EXPECT_EQ(nullptr, node_->take_motion(message)) << seq;
   }
-  // Sequence numbers of the results so far, negative where the image was missing.
+  // Sequence numbers of the results so far; negative where the image was missing.
   std::vector<std::int64_t> results() const {
     std::vector<std::int64_t> out;
     for (const ground_plane_t& plane : results_)
@@ -139,7 +141,7 @@ TEST_F(GroundNodeTest, LetsAMotionWaitForItsImage) {
   EXPECT_EQ((Seqs{1}), results());
   EXPECT_FALSE(node_->waiting());
   node_->expire();
-  EXPECT_EQ((Seqs{1}), results()) << "nothing waits any more";
+  EXPECT_EQ((Seqs{1}), results()) << "no motion waits any more";
 }
 
 TEST_F(GroundNodeTest, ProcessesAMotionWithoutItsImageWhenTheNextOneComes) {
@@ -160,7 +162,7 @@ TEST_F(GroundNodeTest, ProcessesAMotionWithoutItsImageWhenTimeIsUp) {
   motion(1);
   node_->expire();
   EXPECT_EQ((Seqs{-1}), results());
-  EXPECT_EQ(nullptr, node_->take_image(image_bytes(1))) << "too late, but no error";
+  EXPECT_EQ(nullptr, node_->take_image(image_bytes(1))) << "a late image is no error";
   EXPECT_EQ((Seqs{-1}), results());
 }
 
@@ -170,7 +172,7 @@ TEST_F(GroundNodeTest, NeedsTimeAndNumberToMatch) {
   vo_motion_t message;
   to_wire(test::sample_vo_output(), &message);
   message.seq = 1;
-  message.utime = 999;  // of another drive
+  message.utime = 999;  // a time of another drive
   message.num_window = 0;
   EXPECT_EQ(nullptr, node_->take_motion(message));
   EXPECT_TRUE(node_->waiting());
@@ -192,7 +194,7 @@ TEST_F(GroundNodeTest, CountsAMotionThatNeverCame) {
   for (std::int64_t seq = 1; seq <= 4; ++seq) image(seq);
   motion(1);
   motion(2);
-  motion(4);  // names 3 as the one before
+  motion(4);  // its previous image is 3
   EXPECT_EQ(1, node_->num_lost());
 }
 

@@ -1,4 +1,4 @@
-/// Results with every field set to something that would show if it were lost or swapped.
+/// Results whose fields all have distinct values, so that a lost or swapped field is detected.
 #pragma once
 
 #include "modules/ground/ground.hpp"

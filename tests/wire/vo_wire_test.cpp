@@ -22,7 +22,7 @@ std::string refusal(const std::function<void(vo_motion_t*)>& change) {
 }
 
 TEST(VoWire, RoundTripsToTheSameBits) {
-  // R -> q -> R may differ in the last bit once; after that the message is a fixed point.
+  // R -> q -> R may change the last bit once; after that the message is a fixed point.
   static vo_motion_t first;
   static vo_motion_t second;
   static VoOutput back;
@@ -50,7 +50,7 @@ TEST(VoWire, KeepsRotationAndTranslationOfAPose) {
   ASSERT_EQ(nullptr, from_wire(message, &back));
   EXPECT_TRUE(back.T_prev_cam.R.isApprox(output.T_prev_cam.R, 1e-14));
   EXPECT_EQ(back.T_prev_cam.t, output.T_prev_cam.t);
-  EXPECT_GE(message.q_prev_cam[0], 0.0) << "one sign for each rotation";
+  EXPECT_GE(message.q_prev_cam[0], 0.0) << "the sign of the quaternion is unique";
 }
 
 TEST(VoWire, ClearsRowsBeyondTheCounts) {

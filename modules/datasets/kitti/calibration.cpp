@@ -70,7 +70,7 @@ RectifiedCamera read_projection(const CalibrationFile& file, const std::string& 
   camera.model.fy_px = p[5];
   camera.model.cx_px = p[2];
   camera.model.cy_px = p[6];
-  // P = K [I | t]: p_cam = p_left + t, so the camera stands at -t.
+  // P = K [I | t] means p_cam = p_left + t, so the camera is at -t.
   const double tz = p[11];
   camera.t_left_cam_m = {-(p[3] - p[2] * tz) / p[0], -(p[7] - p[6] * tz) / p[5], -tz};
   return camera;

@@ -1,4 +1,7 @@
-/// KITTI calibration files: lines "KEY: number number ...".
+/// Reads KITTI calibration files, whose lines are "KEY: number number ...".
+///
+/// Errors:
+///   Every function throws InputError, with file, line and key where they are known.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,17 +18,17 @@ namespace plumb {
 
 class CalibrationFile {
  public:
-  /// Throws InputError when the file cannot be read. Values are looked at only when asked for:
-  /// KITTI's files hold dates and other text beside them.
+  /// Reads the file. Values are parsed only on request, because KITTI's files also contain dates
+  /// and other text.
   explicit CalibrationFile(const std::filesystem::path& path);
 
-  /// The `count` numbers of `key`. Throws InputError when the key is missing, given twice, or its
+  /// The `count` numbers of `key`. Throws when the key is missing or given twice, or when its
   /// values are not `count` finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count) const;
   [[nodiscard]] bool has(const std::string& key) const { return entries_.count(key) != 0; }
-  /// One number, or nothing when the key is missing.
+  /// The number of `key`, or nothing when the key is missing.
   [[nodiscard]] std::optional<double> optional_number(const std::string& key) const;
-  /// 3x3 rotation `r_key` and translation `t_key` (raw drives).
+  /// The rigid transform with the 3x3 rotation `r_key` and the translation `t_key` (raw drives).
   [[nodiscard]] Se3 rigid(const std::string& r_key, const std::string& t_key) const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -39,14 +42,14 @@ class CalibrationFile {
   std::map<std::string, Entry> entries_;
 };
 
-/// What a projection matrix says about one rectified camera.
+/// A rectified camera as its projection matrix describes it.
 struct RectifiedCamera {
-  CameraModel model;             ///< without image size
-  Eigen::Vector3d t_left_cam_m;  ///< where it is, in the left grey camera's frame
+  CameraModel model;             ///< without the image size
+  Eigen::Vector3d t_left_cam_m;  ///< position of the camera in the left grey camera's frame
 };
 
-/// Reads `key` ("P0", "P_rect_02") as 12 numbers. Throws InputError when focal lengths are not
-/// above zero or the matrix has a skew or another last row than a pinhole's.
+/// Reads the 12 numbers of `key` ("P0", "P_rect_02"). Throws when a focal length is not above zero,
+/// when the matrix has a skew, or when its last row is not that of a pinhole camera.
 [[nodiscard]] RectifiedCamera read_projection(const CalibrationFile& file, const std::string& key);
 
 }  // namespace plumb

@@ -28,7 +28,7 @@ std::vector<NumberedImage> list_images(const fs::path& folder) {
     if (image.path.extension() != ".png") continue;
     if (parse_frame_number(image.path.stem().string(), &image.number)) images.push_back(image);
   }
-  if (images.empty()) throw InputError(folder.string() + " holds no image (NUMBER.png)");
+  if (images.empty()) throw InputError(folder.string() + " has no image (NUMBER.png)");
   std::sort(images.begin(), images.end(), [](const NumberedImage& a, const NumberedImage& b) {
     return a.number != b.number ? a.number < b.number : a.path < b.path;
   });

@@ -14,9 +14,10 @@ constexpr std::size_t kManyColumns = 64;
 
 }  // namespace
 
-// With R_ground_veh = Rz Ry(pitch) Rx(roll), "down" seen from the camera is (n3, -n1, -n2) = (sin
-// pitch, -cos pitch sin roll, -cos pitch cos roll). The estimator has its own code for this
-// (modules/ground); truth does not share it, so that a wrong sign there shows.
+// With R_ground_veh = Rz Ry(pitch) Rx(roll), the downward direction in the camera's axes is
+// (n3, -n1, -n2) = (sin pitch, -cos pitch sin roll, -cos pitch cos roll). The estimator has its own
+// code for this (modules/ground). The truth does not share it,
+// so that a wrong sign there is detected.
 double TruePlane::pitch_rad() const { return std::asin(std::clamp(normal_cam.z(), -1.0, 1.0)); }
 
 double TruePlane::roll_rad() const { return std::atan2(normal_cam.x(), normal_cam.y()); }

@@ -1,7 +1,9 @@
-/// True ground planes per frame: rows "frame nx ny nz height_m ...", further columns are not read.
+/// Reads the true ground plane of each frame from rows "frame nx ny nz height_m ...". Further
+/// columns are ignored.
 ///
-/// Frames   cam: x right, y down, z forward. Plane: normal_cam . X = height, the normal points DOWN
-/// to the road.
+/// Frames:
+///   cam: x right, y down, z forward. The plane is normal_cam . X = height; its normal points DOWN
+///   to the road.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +14,18 @@
 namespace plumb {
 
 struct TruePlane {
-  Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< unit
+  Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< of unit length
   double height_m = 0.0;
 
-  /// ISO 8855 with the body's axes along the camera's: pitch nose DOWN positive, roll right side
-  /// down positive.
+  /// The angles follow ISO 8855 with the body's axes along those of the camera: pitch nose DOWN
+  /// positive, roll right side down positive.
   [[nodiscard]] double pitch_rad() const;
   [[nodiscard]] double roll_rad() const;
 };
 
-/// Planes by frame number. Throws InputError for a wrong row, a frame given twice, a normal that is
-/// not of length one to 1 % or does not point down, and a height that is not above zero.
+/// Reads the planes by frame number. Throws InputError for a wrong row, a frame given twice, a
+/// normal whose length differs from one by more than 1 % or that does not point down, and a height
+/// that is not above zero.
 [[nodiscard]] std::map<std::int64_t, TruePlane> read_planes(const std::filesystem::path& path);
 
 }  // namespace plumb

@@ -12,7 +12,7 @@ namespace plumb {
 namespace {
 
 constexpr std::uint8_t kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-constexpr std::size_t kChunkFrame = 12;  // length, type and check sum
+constexpr std::size_t kChunkFrame = 12;  // length, type and checksum
 constexpr int kMaxSide_px = 8192;
 
 std::uint32_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at) {
@@ -29,7 +29,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// Does the chunk list run to its closing IEND?
+/// True when the list of chunks reaches its final IEND.
 bool chunks_complete(std::span<const std::uint8_t> bytes) {
   std::size_t at = sizeof kSignature;
   while (at + kChunkFrame <= bytes.size()) {

@@ -1,4 +1,4 @@
-/// PNG files of a KITTI camera as 8-bit grey.
+/// Reads PNG files of a KITTI camera as 8-bit grey images.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ struct PngHeader {
   int width_px = 0;
   int height_px = 0;
   int bits_per_channel = 0;
-  bool colour = false;  ///< anything but plain grey: RGB, palette, alpha
+  bool colour = false;  ///< true for anything but plain grey: RGB, palette or alpha
 };
 
-/// Null, and `header` filled, when `bytes` are a PNG with all its chunks; else why not. libpng
-/// alone would fill what is cut off with black and call it a warning.
+/// Fills `header` and returns null when `bytes` are a PNG with all its chunks, and else returns the
+/// reason. libpng alone would fill a truncated image with black and only warn.
 [[nodiscard]] const char* read_png_header(std::span<const std::uint8_t> bytes, PngHeader* header);
 
-/// Grey pixels of `path`. Colour is converted (luma of BT.601) when `colour_allowed`. Throws
-/// InputError for files that cannot be read, are cut off or corrupt, have not 8 bits per channel,
-/// or are in colour.
+/// Reads the grey pixels of `path`. Colour is converted to luma (BT.601) when `colour_allowed`.
+/// Throws InputError for a file that cannot be read, is truncated or corrupt, does not have 8 bits
+/// per channel, or is in colour although that is not allowed.
 [[nodiscard]] cv::Mat load_grey_png(const std::filesystem::path& path, bool colour_allowed);
 
 }  // namespace plumb

@@ -1,7 +1,10 @@
-/// KITTI pose files: one row per frame, the first three rows of T_world_cam, 12 numbers row by row.
+/// Reads and writes KITTI pose files. Each row has the first three rows of one frame's T_world_cam:
+/// 12 numbers in row-major order.
 ///
-/// Frames   cam: x right, y down, z forward.  world: whatever the file's author chose.
-/// Units    metres.
+/// Frames:
+///   cam: x right, y down, z forward. The world is the choice of the file's author.
+/// Units:
+///   Translations are in metres.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +13,16 @@
 
 namespace plumb {
 
-/// T_world_cam as a 4x4 matrix. Kept as written: rows of six decimals are not exact rotations, and
-/// the devkit does not make them so.
+/// T_world_cam as a 4x4 matrix, with the numbers of the file. Numbers of six decimals do not form
+/// an exact rotation, and KITTI's development kit does not correct that either.
 using PoseMatrix = Eigen::Matrix4d;
 
-/// Throws InputError for anything but rows of 12 finite numbers whose 3x3 part is a rotation to 1
-/// %.
+/// Reads the poses. Throws InputError for a row that is not 12 finite numbers or whose 3x3 part is
+/// not a rotation to within 1 %.
 [[nodiscard]] std::vector<PoseMatrix> read_poses(const std::filesystem::path& path);
 
-/// One row of a pose file, without the line end: nine decimals in exponent form, enough that
-/// rounding is below the truth's own.
+/// Formats one row of a pose file without its line end. Nine decimals in exponent form keep the
+/// rounding below that of the truth.
 [[nodiscard]] std::string pose_row(const PoseMatrix& T_world_cam);
 
 }  // namespace plumb

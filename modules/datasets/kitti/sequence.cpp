@@ -33,7 +33,7 @@ Layout find_layout(const SequenceOptions& options) {
                    odometry.filename().string() + " nor " + raw.filename().string() + "/data");
 }
 
-/// The pair belongs together: whoever states one of them means 0 by leaving the other out.
+/// The two coefficients form a pair: when only one of them is given, the other one is 0.
 void set_residual(std::optional<double> k1, std::optional<double> k2, CameraModel* camera) {
   const bool stated = k1 || k2;
   camera->residual_k1 = stated ? k1.value_or(0.0) : kKittiResidualK1;
@@ -93,7 +93,7 @@ PoseMatrix to_matrix(const Se3& T) {
 void read_pose_file(const fs::path& file, const std::vector<NumberedImage>& images,
                     Sequence* sequence) {
   const std::vector<PoseMatrix> poses = read_poses(file);
-  if (poses.empty()) throw InputError(file.string() + " holds no pose");
+  if (poses.empty()) throw InputError(file.string() + " has no pose");
   const RowLookup lookup(file, poses.size(), images);
   for (std::size_t i = 0; i < images.size(); ++i) {
     sequence->frames[i].T_world_cam = poses[lookup.row(i, images[i].number)];
@@ -123,7 +123,7 @@ void read_oxts_truth(const fs::path& drive, const RawCalibration& files,
   }
 }
 
-/// The one plane file of the folder, if there is one.
+/// Returns the plane file of the folder, or an empty path when there is none.
 fs::path find_planes(const fs::path& folder) {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -132,7 +132,7 @@ fs::path find_planes(const fs::path& folder) {
   }
   if (found.size() > 1) {
     throw InputError(folder.string() +
-                     " holds more than one gt_ground_plane*.txt: --planes names one");
+                     " has more than one gt_ground_plane*.txt; name one with --planes");
   }
   return found.empty() ? fs::path() : found.front();
 }
@@ -147,7 +147,7 @@ void read_plane_file(const fs::path& file, Sequence* sequence) {
   sequence->notes.push_back("ground planes from " + file.string());
 }
 
-/// KITTI's truth is of the left grey camera.
+/// Moves the truth from KITTI's left grey camera to the camera of the images.
 void move_truth(const Eigen::Vector3d& t_left_cam_m, Sequence* sequence) {
   const PoseMatrix T_left_cam = to_matrix({Eigen::Matrix3d::Identity(), t_left_cam_m});
   for (SequenceFrame& frame : sequence->frames) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLongestDrive_s = 1e7;
 
-/// Microseconds since 1970-01-01, or -1.
+/// Microseconds since 1970-01-01, or -1 when the text is not a time.
 std::int64_t parse_timestamp_us(const std::string& text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, length = 0;
   double second = 0.0;

@@ -1,4 +1,5 @@
-/// Reads the LCM log of one plumb-camera session and checks what the session promises.
+/// Reads the LCM log of one plumb-camera session and checks it against
+/// the expectations of the session.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cinttypes>
@@ -101,15 +102,15 @@ void check_frames(const Expectation& expected, Session* s) {
   std::printf("  median frame period %.1f ms\n", period_us * 1e-3);
   if (std::abs(period_us * expected.rate_hz * 1e-6 - 1.0) > 0.1)
     problem("frame period is not the driver's");
-  // Stamps and health share CLOCK_MONOTONIC. vivid stamps the end of a frame when it begins it, so up
-  // to a period ahead; the device may be gone for the last seconds of a session.
+  // Time stamps and health share CLOCK_MONOTONIC. vivid stamps the end of a frame when it begins
+  // it, up to a period ahead. The device may be missing during the last seconds of a session.
   const std::int64_t ahead_us = s->frames.back().capture_us - s->health.back().utime;
   if (ahead_us > 300'000 || ahead_us < -15'000'000) problem("stamps are from another clock");
 }
 
 void check_counters(const Expectation& expected, Session* s) {
   if (s->health.size() < 2) return s->problems.push_back("no health messages");
-  // The last message is the farewell; its counters are those of the one before it.
+  // The last message announces the stop and repeats the counters of the one before it.
   const plumb::process_health_t& last = s->health[s->health.size() - 2];
   std::int64_t num_gaps = 0;
   for (std::size_t i = 1; i < s->frames.size(); ++i)
@@ -144,7 +145,7 @@ void check_reasons(const Expectation& expected, Session* s) {
   }
 }
 
-/// Same still picture, taken by v4l2-ctl, luma by OpenCV.
+/// Compares with the same still picture from v4l2-ctl, whose luma OpenCV computes.
 void check_raw(const Expectation& expected, Session* s) {
   std::ifstream stream(expected.raw, std::ios::binary);
   std::vector<char> bytes((std::istreambuf_iterator<char>(stream)),

@@ -23,14 +23,14 @@ class Calibration : public ::testing::Test {
 };
 
 TEST_F(Calibration, ReadsAProjectionAndWhereItsCameraStands) {
-  // KITTI's P3 of the sequences 04 to 12: 0.53 m to the right of the left grey camera.
+  // KITTI's P3 of the sequences 04 to 12. Its camera is 0.53 m to the right of the left grey one.
   const auto camera = read_projection(
       file("P3: 707.0912 0 601.8873 -333.4597 0 707.0912 183.1104 1.930130 0 0 1 0.003318498\n"),
       "P3");
   EXPECT_DOUBLE_EQ(camera.model.fx_px, 707.0912);
   EXPECT_DOUBLE_EQ(camera.model.cx_px, 601.8873);
   EXPECT_DOUBLE_EQ(camera.model.cy_px, 183.1104);
-  // P_left = (0,0,0) projects through P3 to where K puts -t_left_cam.
+  // P3 projects the origin of the left camera to the pixel to which K projects -t_left_cam.
   const Eigen::Vector3d t = camera.t_left_cam_m;
   EXPECT_NEAR(707.0912 * -t.x() + 601.8873 * -t.z(), -333.4597, 1e-9);
   EXPECT_NEAR(707.0912 * -t.y() + 183.1104 * -t.z(), 1.930130, 1e-9);

@@ -30,7 +30,7 @@ TEST(ImageList, SortsByNumberAndPassesOverOtherFiles) {
 
 TEST(ImageList, RefusesAnEmptyAMissingAndADoubleOne) {
   const test::TempFolder folder;
-  expect_contains(input_error_of([&] { (void)list_images(folder.path()); }), "holds no image");
+  expect_contains(input_error_of([&] { (void)list_images(folder.path()); }), "has no image");
   expect_contains(input_error_of([&] { (void)list_images(folder / "none"); }), "no image folder");
   folder.write("000007.png", "");
   folder.write("0000000007.png", "");

@@ -30,7 +30,7 @@ std::vector<NumberedImage> images(int count) {
   return list;
 }
 
-/// Camera at the IMU's place: its z is the IMU's x, its x the IMU's -y.
+/// A camera at the position of the IMU, with z along the IMU's x and x along the IMU's -y.
 Se3 T_cam_imu() {
   Se3 T;
   T.R << 0, -1, 0, 0, 0, -1, 1, 0, 0;
@@ -39,19 +39,20 @@ Se3 T_cam_imu() {
 
 TEST(Oxts, DrivingEastIsDrivingAhead) {
   const test::TempFolder folder;
-  // At the equator a degree of longitude is as long as one of latitude, and Mercator's scale is 1.
+  // At the equator a degree of longitude is as long as one of latitude,
+  // and the Mercator scale is 1.
   folder.write("data/0000000000.txt", oxts_row(0.0, 8.0, 100.0, 0, 0, 0));
   folder.write("data/0000000001.txt", oxts_row(0.0, 8.0 + 10.0 / kMetresPerDegree, 101.0, 0, 0, 0));
   const auto poses = read_oxts_poses(folder / "data", images(2), T_cam_imu());
   ASSERT_TRUE(poses[0] && poses[1]);
   EXPECT_LT(poses[0]->t.norm(), 1e-6);
-  // 10 m ahead (z) and 1 m up (-y).
+  // The second pose is 10 m ahead (z) and 1 m up (-y).
   EXPECT_LT((poses[1]->t - Eigen::Vector3d(0, -1, 10)).norm(), 1e-5);
 }
 
 TEST(Oxts, ALeftTurnIsAboutTheCamerasUpAxis) {
   const test::TempFolder folder;
-  const double yaw = 0.1;  // left positive, from east
+  const double yaw = 0.1;  // positive to the left, from east
   folder.write("data/0000000000.txt", oxts_row(49.0, 8.0, 100.0, 0, 0, 0));
   folder.write("data/0000000001.txt", oxts_row(49.0, 8.0, 100.0, 0, 0, yaw));
   const auto poses = read_oxts_poses(folder / "data", images(2), T_cam_imu());
@@ -62,7 +63,7 @@ TEST(Oxts, TheLeverBetweenImuAndCameraSwingsInATurn) {
   const test::TempFolder folder;
   folder.write("data/0000000000.txt", oxts_row(49.0, 8.0, 100.0, 0, 0, 0));
   folder.write("data/0000000001.txt", oxts_row(49.0, 8.0, 100.0, 0, 0, std::numbers::pi / 2));
-  // WHEN the camera stands 1 m before the IMU and the car turns left on the spot:
+  // WHEN the camera is 1 m ahead of the IMU and the car turns left on the spot,
   Se3 T = T_cam_imu();
   T.t = {0.0, 0.0, -1.0};
   const auto poses = read_oxts_poses(folder / "data", images(2), T);

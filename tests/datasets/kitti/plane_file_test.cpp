@@ -23,8 +23,8 @@ TEST(PlaneFile, ReadsTheLidarFormatAndPassesOverFurtherColumns) {
 }
 
 TEST(PlaneFile, CallsNoseDownPositivePitch) {
-  // WHEN the optical axis points 2 degrees below the horizon, the road's downward normal leans
-  // forward.
+  // WHEN the optical axis points 2 degrees below the horizon,
+  // the road's downward normal leans forward.
   const double angle_rad = 0.0349;
   const TruePlane plane{{0.0, std::cos(angle_rad), std::sin(angle_rad)}, 1.65};
   EXPECT_NEAR(plane.pitch_rad(), angle_rad, 1e-12);
@@ -32,7 +32,7 @@ TEST(PlaneFile, CallsNoseDownPositivePitch) {
 }
 
 TEST(PlaneFile, CallsRightSideDownPositiveRoll) {
-  // WHEN the camera's right side is low, "down" has a part to the camera's right.
+  // WHEN the camera's right side is low, "down" has a component to the camera's right.
   const double angle_rad = 0.01;
   const TruePlane plane{{std::sin(angle_rad), std::cos(angle_rad), 0.0}, 1.65};
   EXPECT_NEAR(plane.roll_rad(), angle_rad, 1e-12);

@@ -66,12 +66,12 @@ TEST_F(SequenceTest, MovesTruthToTheCameraThatIsConverted) {
     test::write_image(folder_, format("seq/image_2/%06d.png", i), test::test_image(i));
   }
   folder_.write("seq/poses.txt", test::to_file(test::repeat(test::drive_step(1.0), 2)));
-  // A road that leans: half a metre to the left is nearer to it by n_x / 2 and more.
+  // On an inclined road a camera half a metre to the left is nearer to it by n_x / 2 and more.
   folder_.write("seq/gt_ground_plane.txt", "0 0.1 0.99498743710662 0 1.6\n");
   SequenceOptions o = options(seq);
   o.camera = 2;
   const Sequence sequence = read_sequence(o);
-  // P2 has 4.8 / 80: its camera stands 0.06 m to the left.
+  // P2 has 4.8 / 80, so its camera is 0.06 m to the left.
   EXPECT_NEAR((*sequence.frames[0].T_world_cam)(0, 3), -0.06, 1e-12);
   EXPECT_NEAR(sequence.frames[0].plane->height_m, 1.6 + 0.1 * 0.06, 1e-12);
   EXPECT_TRUE(sequence.colour_allowed);
@@ -90,7 +90,8 @@ TEST_F(SequenceTest, ReadsARawDriveWithTheCalibrationOneFolderUp) {
 TEST_F(SequenceTest, TakesPosesFromOxtsWhenTheCalibrationsAreThere) {
   const auto drive = test::write_raw(folder_, 2);
   for (int i = 0; i < 2; ++i) {
-    std::string row = format("0 %.12f 0 0 0 0", 8.0 + i * 8.9831528e-06);  // 1 m of longitude
+    std::string row =
+        format("0 %.12f 0 0 0 0", 8.0 + i * 8.9831528e-06);  // 1 m along the longitude
     for (int k = 6; k < 30; ++k) row += " 0";
     folder_.write(format("date/drive/oxts/data/%010d.txt", i), row + "\n");
   }

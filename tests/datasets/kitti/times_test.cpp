@@ -27,7 +27,7 @@ TEST(Times, RawTimeStampsAreUtc) {
   const auto times_us = read_raw_times_us(
       folder.write("t.txt", "1970-01-02 00:00:00.000001499\n2011-09-26 13:02:25.964389445\n"));
   EXPECT_EQ(times_us[0], 86'400'000'001);
-  EXPECT_EQ(times_us[1], 1'317'042'145'964'389);  // date -u -d '2011-09-26 13:02:25' +%s
+  EXPECT_EQ(times_us[1], 1'317'042'145'964'389);  // from: date -u -d '2011-09-26 13:02:25' +%s
 }
 
 TEST(Times, RefusesWhatIsNoTime) {

@@ -125,8 +125,8 @@ void write_motion_output(const ego_motion_t& ego, const Se3& T_prev_cam_true, Sa
   Se3 T_prev_cam;
   Matrix6d cov;
   if (ego.status != ego_motion_t::STATUS_OK || T_prev_cam_true.t.norm() < kShortestTrueStep_m ||
-      !from_wire(ego.q_prev_cam, ego.t_prev_cam_m, &T_prev_cam) ||
-      !from_wire(ego.cov_prev_cam, &cov)) {
+      from_wire(ego.q_prev_cam, ego.t_prev_cam_m, &T_prev_cam) != nullptr ||
+      from_wire(ego.cov_prev_cam, &cov) != nullptr) {
     return;
   }
   const double length = T_prev_cam.t.norm();

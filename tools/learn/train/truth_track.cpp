@@ -17,7 +17,8 @@ TruthTrack::TruthTrack(const std::string& log, const std::string& plane_file) {
     ground_truth_t truth;
     if (!decode_bounded(event.data, &truth)) throw InputError(log + ": a GROUND_TRUTH is damaged");
     Se3 T_world_cam;
-    if (truth.has_pose != 0 && from_wire(truth.q_world_cam, truth.t_world_cam_m, &T_world_cam))
+    if (truth.has_pose != 0 &&
+        from_wire(truth.q_world_cam, truth.t_world_cam_m, &T_world_cam) == nullptr)
       T_world_cam_[truth.seq] = T_world_cam;
     TruePlane plane{Eigen::Map<const Eigen::Vector3d>(truth.normal_cam), truth.height_m};
     if (truth.has_plane != 0 && plane.height_m > 0.0 && plane.normal_cam.y() > 0.0)

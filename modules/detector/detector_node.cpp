@@ -1,17 +1,17 @@
-#include "modules/detector/detect_node.hpp"
+#include "modules/detector/detector_node.hpp"
 
 namespace plumb {
 
-const char* DetectNode::take_image(std::span<const std::uint8_t> image_bytes) {
+const char* DetectorNode::take_image(std::span<const std::uint8_t> image_bytes) {
   ImageFrame frame;
   if (const char* why = read_image(image_bytes, &frame)) return why;
-  if (waiting_) ++num_passed_over_;
+  if (waiting_) ++num_skipped_;
   newest_.assign(image_bytes.begin(), image_bytes.end());
   waiting_ = true;
   return nullptr;
 }
 
-const detections_t* DetectNode::search(const char** refused) {
+const detections_t* DetectorNode::search(const char** refused) {
   *refused = nullptr;
   if (!waiting_) return nullptr;
   waiting_ = false;

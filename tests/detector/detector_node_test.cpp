@@ -1,4 +1,4 @@
-#include "modules/detector/detect_node.hpp"
+#include "modules/detector/detector_node.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace plumb {
 namespace {
 
-std::string refusal(const DetectConfig& config) {
+std::string refusal(const DetectorConfig& config) {
   try {
     const Network network(config);
   } catch (const ConfigError& error) {
@@ -20,9 +20,9 @@ std::string refusal(const DetectConfig& config) {
   return "";
 }
 
-DetectConfig small_network() {
+DetectorConfig small_network() {
   const auto folder = test::kitti_sequence("../detectors/yolo-fastest-1.1");
-  DetectConfig config;
+  DetectorConfig config;
   if (folder.empty()) return config;
   config.model_file = (folder / "yolo-fastest-1.1.cfg").string();
   config.weights_file = (folder / "yolo-fastest-1.1.weights").string();
@@ -38,9 +38,9 @@ std::vector<std::uint8_t> image_message(std::int64_t seq, const cv::Mat& grey) {
   return bytes;
 }
 
-TEST(DetectNetwork, SaysWhatIsWrongWithItsSettings) {
+TEST(Network, SaysWhatIsWrongWithItsSettings) {
   const test::TempFolder folder;
-  DetectConfig config;
+  DetectorConfig config;
   EXPECT_EQ(refusal(config), "detect.model_file is not set");
   config.model_file = "/nonexistent/net.cfg";
   EXPECT_NE(refusal(config).find("/nonexistent/net.cfg"), std::string::npos);
@@ -52,14 +52,14 @@ TEST(DetectNetwork, SaysWhatIsWrongWithItsSettings) {
   }
 }
 
-TEST(DetectProgram, WithoutANetworkEndsWithOneSentence) {
+TEST(DetectorProgram, WithoutANetworkEndsWithOneSentence) {
   const test::TempFolder folder;
   const auto result = test::run_program(folder, "plumb-detect", "--lcm-url memq://");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("detect.model_file is not set"), std::string::npos) << result.err;
 }
 
-class DetectOnRoads : public testing::Test {
+class DetectorOnRoads : public testing::Test {
  protected:
   void SetUp() override {
     drive_ = test::kitti_sequence("raw/drive0009_000-050");
@@ -71,8 +71,8 @@ class DetectOnRoads : public testing::Test {
   cv::Mat image_;
 };
 
-TEST_F(DetectOnRoads, FindsParkedCarsWithTheBoxesBehindThem) {
-  DetectNode node(small_network());
+TEST_F(DetectorOnRoads, FindsParkedCarsWithTheBoxesBehindThem) {
+  DetectorNode node(small_network());
   ASSERT_EQ(node.take_image(image_message(40, image_)), nullptr);
   const char* refused = nullptr;
   const detections_t* found = node.search(&refused);
@@ -93,13 +93,13 @@ TEST_F(DetectOnRoads, FindsParkedCarsWithTheBoxesBehindThem) {
   EXPECT_EQ(refused, nullptr);
 }
 
-TEST_F(DetectOnRoads, GivesTheSameBoxesEveryTimeAndTakesTheNewestImage) {
+TEST_F(DetectorOnRoads, GivesTheSameBoxesEveryTimeAndTakesTheNewestImage) {
   std::vector<std::vector<std::uint8_t>> runs;
   for (int run = 0; run < 2; ++run) {
-    DetectNode node(small_network());
+    DetectorNode node(small_network());
     ASSERT_EQ(node.take_image(image_message(39, cv::Mat::zeros(image_.size(), CV_8U))), nullptr);
     ASSERT_EQ(node.take_image(image_message(40, image_)), nullptr);
-    EXPECT_EQ(node.num_passed_over(), 1);
+    EXPECT_EQ(node.num_skipped(), 1);
     const char* refused = nullptr;
     const detections_t* found = node.search(&refused);
     ASSERT_NE(found, nullptr);
@@ -110,8 +110,8 @@ TEST_F(DetectOnRoads, GivesTheSameBoxesEveryTimeAndTakesTheNewestImage) {
   EXPECT_EQ(runs[0], runs[1]);
 }
 
-TEST_F(DetectOnRoads, RefusesWhatIsNoImageAndGoesOn) {
-  DetectNode node(small_network());
+TEST_F(DetectorOnRoads, RefusesWhatIsNoImageAndGoesOn) {
+  DetectorNode node(small_network());
   EXPECT_NE(node.take_image({}), nullptr);
   const char* refused = nullptr;
   EXPECT_EQ(node.search(&refused), nullptr);

@@ -1,4 +1,4 @@
-#include "modules/detector/network_source.hpp"
+#include "modules/detector/network.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -40,25 +40,25 @@ std::map<int, ObjectClass> parse_classes(const std::string& text) {
       throw ConfigError("detect.classes: '" + word + "' is not number:class");
     classes[number] = class_named(word.substr(colon + 1));
   }
-  if (classes.empty()) throw ConfigError("detect.classes names none");
+  if (classes.empty()) throw ConfigError("detect.classes names no class");
   return classes;
 }
 
-cv::dnn::Net read_network(const DetectConfig& config) {
+cv::dnn::Net read_network(const DetectorConfig& config) {
   if (config.model_file.empty()) throw ConfigError("detect.model_file is not set");
   try {
     return cv::dnn::readNet(config.model_file, config.weights_file);
   } catch (const cv::Exception&) {
     throw ConfigError(config.model_file +
                       (config.weights_file.empty() ? "" : " with " + config.weights_file) +
-                      ": not a network that OpenCV reads");
+                      ": not a network that OpenCV can read");
   }
 }
 
 }  // namespace
 
 struct Network::Impl {
-  explicit Impl(const DetectConfig& config_in)
+  explicit Impl(const DetectorConfig& config_in)
       : config(config_in),
         classes(parse_classes(config.classes)),
         net(read_network(config)),
@@ -72,7 +72,7 @@ struct Network::Impl {
   void search(const cv::Mat& image, const Crop& crop);
   void take_rows(const cv::Mat& rows, const cv::Mat& image, const Crop& crop);
 
-  DetectConfig config;
+  DetectorConfig config;
   std::map<int, ObjectClass> classes;
   cv::dnn::Net net;
   std::vector<std::string> outputs;
@@ -80,11 +80,11 @@ struct Network::Impl {
   std::vector<RawBox> boxes;
 };
 
-Network::Network(const DetectConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+Network::Network(const DetectorConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 Network::~Network() = default;
 
 std::vector<RawBox>& Network::find(const ImageView& grey) {
-  // OpenCV has no const view; it is only read.
+  // OpenCV has no view of constant pixels; these are only read.
   const cv::Mat view(grey.height_px, grey.width_px, CV_8U, const_cast<std::uint8_t*>(grey.data),
                      static_cast<std::size_t>(grey.stride_bytes));
   cv::Mat image;
@@ -116,7 +116,8 @@ void Network::Impl::search(const cv::Mat& image, const Crop& crop) {
 }
 
 void Network::Impl::take_rows(const cv::Mat& rows, const cv::Mat& image, const Crop& crop) {
-  // Darknet's rows are in shares of the input and its class scores hold the objectness already.
+  // Darknet's rows are relative to the size of the input,
+  // and its class scores include the objectness.
   const double scale = onnx ? crop.side_px / config.input_px : crop.side_px;
   for (int r = 0; r < rows.rows; ++r) {
     const auto* row = rows.ptr<float>(r);
