@@ -52,6 +52,10 @@ class Process {
   /// Options of this program's own; `declare` needs <CLI/CLI.hpp> and runs within run().
   void declare_options(std::function<void(CLI::App&)> declare);
 
+  /// A flag that, like --print-config, prints a text made from the configuration and ends the
+  /// program. `text` may throw InputError.
+  void declare_print(const char* flag, const char* help, std::function<std::string()> text);
+
   /// Everything after the options: reads them, fills `config`, joins LCM, calls `setup` (which
   /// creates the endpoints) and serves until a stop signal. Returns the exit code; prints what is
   /// wrong.

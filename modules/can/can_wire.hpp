@@ -1,5 +1,5 @@
-/// GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS -> CAN frames: what plumb-can runs live and plumb-replay runs on a
-/// log.
+/// GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS -> CAN frames: what plumb-can runs live and
+/// plumb-replay runs on a log.
 ///
 /// The input is the LCM message, also in a replay: quaternions and matrices round differently, and
 /// "live equals replay" is judged bit for bit.
@@ -14,6 +14,7 @@
 
 #include "modules/can/can_gate.hpp"
 #include "modules/can/can_object_gate.hpp"
+#include "modules/can/signals/signal_tables.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/mount_t.hpp"
@@ -21,23 +22,30 @@
 
 namespace plumb {
 
-/// False when the message breaks its contract: unknown status, negative seq, or a value that its
-/// status says holds is not a number or has a negative variance.
-[[nodiscard]] bool from_wire(const ego_motion_t& message, CanEgo* ego);
-[[nodiscard]] bool from_wire(const ground_plane_t& message, CanPlane* plane);
-[[nodiscard]] bool from_wire(const mount_t& message, CanMount* mount);
-/// The nearest kMaxCanObjects that have a place on the road, nearest first. One broken object breaks the message.
-[[nodiscard]] bool from_wire(const objects_t& message, CanObjects* objects);
+/// Null, and the values of all its signals, when the message keeps its contract; else why not:
+/// unknown status, negative seq, or a value that its status says is valid is not a number or has a
+/// negative variance. What `messages` must be: can_messages().
+[[nodiscard]] const char* from_wire(const ego_motion_t& message, const Messages& messages,
+                                    CanSample* ego);
+[[nodiscard]] const char* from_wire(const ground_plane_t& message, const Messages& messages,
+                                    CanSample* plane);
+[[nodiscard]] const char* from_wire(const mount_t& message, const Messages& messages,
+                                    CanSample* mount);
+/// The nearest kMaxCanObjects that have a place on the road, nearest first. One broken object breaks
+/// the message.
+[[nodiscard]] const char* from_wire(const objects_t& message, const Messages& messages,
+                                    CanObjects* objects);
 
 class CanOutput {
  public:
-  explicit CanOutput(const CanConfig& config) : gate_(config), object_gate_(config) {}
+  /// Throws InputError for identifiers and cycles that do not fit together, see can_addresses().
+  explicit CanOutput(const CanConfig& config);
 
-  /// False when the message was rejected (and counted).
-  bool on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
-  bool on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
-  bool on_mount(const mount_t& message, std::int64_t now_us);
-  bool on_objects(const objects_t& message, std::int64_t now_us);
+  /// Null, else why the message was rejected (and counted).
+  const char* on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
+  const char* on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
+  const char* on_mount(const mount_t& message, std::int64_t now_us);
+  const char* on_objects(const objects_t& message, std::int64_t now_us);
 
   /// One tick of the caller's timer.
   void tick(std::int64_t now_us, CanSink& sink);
@@ -64,11 +72,12 @@ class CanOutput {
  private:
   static constexpr std::int64_t kMaxStepUs = 10'000'000;
 
+  const char* counted(const char* fault);
+
+  Messages messages_;
   CanGate gate_;
   CanObjectGate object_gate_;
-  CanEgo ego_;
-  CanPlane plane_;
-  CanMount mount_;
+  CanSample sample_;
   CanObjects objects_;
   std::int64_t num_rejected_ = 0;
   std::int64_t num_undecoded_ = 0;
