@@ -1,6 +1,7 @@
 /// Physical values <-> CAN frames, as a message's table says.
 ///
-/// Memory  values in, frame out; nothing is kept.
+/// Memory:
+///   The functions keep nothing.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,10 @@ struct FrameFields {
   std::uint8_t object_index = 0;   ///< in the list of objects
 };
 
-/// Nearest raw value; saturates, and NaN becomes "not available" (0 where the signal has none).
+/// Returns the nearest raw value. It saturates at the ends of the range; NaN becomes "not
+/// available", or 0 where the signal has no such value.
 [[nodiscard]] std::uint64_t to_raw(const SignalLayout& layout, double physical);
-/// NaN for "not available".
+/// Returns NaN for "not available".
 [[nodiscard]] double to_physical(const SignalLayout& layout, std::uint64_t raw);
 
 /// @pre the signal lies inside `data`, raw < 2^length
@@ -28,12 +30,12 @@ void insert_raw(const SignalLayout& layout, std::uint64_t raw, std::span<std::ui
 [[nodiscard]] std::uint64_t extract_raw(const SignalLayout& layout,
                                         std::span<const std::uint8_t> data);
 
-/// The message's frame with these values, counters and CRC.
+/// Returns the message's frame with these values, counters and its CRC.
 [[nodiscard]] CanFrame encode(const Message& message, const MessageValues& values,
                               const FrameFields& fields);
 
-/// Reads every signal of the frame into `values`. False, leaving them alone, when identifier, size,
-/// CRC or alive counter are not this message's.
+/// Reads every signal of the frame into `values`. Returns false and leaves `values` alone when
+/// identifier, size, CRC or alive counter are not those of this message.
 [[nodiscard]] bool decode(const Message& message, const CanFrame& frame, MessageValues* values);
 
 }  // namespace plumb

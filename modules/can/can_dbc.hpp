@@ -1,8 +1,10 @@
 /// The CAN database (DBC) of one configuration, made from the tables of signals.
 ///
-/// Objects   their messages are multiplexed by the index in the list: object 0's position is
-///           Obj0_PosX, object 7's is Obj7_PosX, in the same bits.
-/// Extended  identifiers of 29 bits carry bit 31, as a DBC asks.
+/// Objects:
+///   Their messages are multiplexed by the index in the list: the same bits are called Obj0_PosX
+///   for index 0 and Obj7_PosX for index 7.
+/// Identifiers:
+///   Those of 29 bits carry bit 31, as a DBC demands.
 #pragma once
 
 #include <string>
@@ -11,7 +13,7 @@
 
 namespace plumb {
 
-/// The whole text. `messages` as can_messages() returned them for this `config`.
+/// Returns the whole text. @pre `messages` are those of this `config`
 [[nodiscard]] std::string render_dbc(const CanConfig& config, const Messages& messages);
 
 }  // namespace plumb

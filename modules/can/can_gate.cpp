@@ -154,7 +154,7 @@ MessageValues CanGate::compose(const Message& message, const Available& now) {
       case CanSource::kPlane:
         values[i] = value_in(now.plane, slot);
         break;
-      case CanSource::kMount:
+      case CanSource::kMountCheck:
         values[i] = value_in(now.mount, slot);
         break;
       default:

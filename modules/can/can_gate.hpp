@@ -1,11 +1,15 @@
 /// Decides what may be sent now: fixed cycles, every camera frame at least once, and "not
 /// available" as soon as values are too old or not valid. Pure: time is passed in.
 ///
-/// Pairing  the ground plane and the ego motion of one `seq` become one entry of a queue; each tick
-///          takes at most one entry, whose messages leave in one burst, and repeats what is cyclic.
-/// Mount    belongs to no frame: each is sent once, at the next tick, and repeated by its cycle.
-/// Time     [us] of one steady clock of the caller's choice; the log's own clock in a replay.
-/// Memory   kMaxPending entries in place; when full the oldest is dropped and counted.
+/// Pairing:
+///   The ground plane and the ego motion of one `seq` become one entry of a queue. Each tick takes
+///   at most one entry, whose messages leave in one burst, and repeats the messages that are due.
+/// Mount:
+///   It belongs to no frame. Each one is sent once, at the next tick, and repeated by its cycle.
+/// Time:
+///   [us] of one steady clock of the caller's choice; in a replay the log's own clock.
+/// Memory:
+///   kMaxPending entries in place. When the queue is full, the oldest is dropped and counted.
 #pragma once
 
 #include <array>
@@ -20,7 +24,7 @@
 
 namespace plumb {
 
-/// What one GROUND_PLANE, EGO_MOTION or MOUNT says to the bus.
+/// What one GROUND_PLANE, EGO_MOTION or MOUNT gives to the bus.
 struct CanSample {
   std::int64_t seq = 0;  ///< of the camera frame; a mount has none
   CanValidity validity = CanValidity::kInvalid;
@@ -46,21 +50,21 @@ class CanGate {
   /// When full the oldest is dropped: the newest replaces it anyway.
   static constexpr std::size_t kMaxPendingMounts = 4;
 
-  /// `messages` as make_messages() returned it for this `config`.
+  /// @pre `messages` are those of this `config`
   CanGate(const CanConfig& config, const Messages& messages);
 
   void on_ground_plane(const CanSample& plane, std::int64_t now_us);
   void on_ego_motion(const CanSample& ego, std::int64_t now_us);
   void on_mount(const CanSample& mount, std::int64_t now_us);
 
-  /// Sends what is due. Call every kTickUs; a late call is not made up for.
+  /// Sends what is due. Call it every kTickUs; it does not make up for missed calls.
   void tick(std::int64_t now_us, CanSink& sink);
 
-  /// What only the caller can count.
+  /// Sets the counts that only the caller knows.
   void report(std::int64_t num_rejected, std::int64_t num_unsent);
 
   [[nodiscard]] const CanCounters& counters() const { return counters_; }
-  /// Nothing waits to be sent.
+  /// Returns whether nothing waits to be sent.
   [[nodiscard]] bool idle() const {
     return pending_.empty() && !is_open_ && !is_changed_ && pending_mounts_.empty();
   }
@@ -80,7 +84,7 @@ class CanGate {
     CanSample mount;
   };
 
-  /// What can be sent now. Null: not received, or too old.
+  /// What can be sent now. A null pointer: not received, or too old.
   struct Available {
     const CanSample* ego = nullptr;
     const CanSample* plane = nullptr;

@@ -1,13 +1,16 @@
 /// Decides when lists of objects go onto the bus: each once, as one burst, and "not available" when
 /// they stop coming.
 ///
-/// Burst    the list's message, then position, motion and state of each object, in one tick; all
-///          carry the frame counter and none of another frame comes between. Between bursts the
-///          list's message repeats by its own cycle.
-/// Silence  until a first list came: a system without plumb-objects has no object messages on its
-///          bus.
-/// Time     as CanGate, whose ticks these are.
-/// Memory   kMaxPending lists in place; when full the oldest is dropped and counted.
+/// Burst:
+///   The list's message, then position, motion and state of each object leave in one tick. All
+///   carry the frame counter. Between bursts the list's message repeats by its own cycle.
+/// Silence:
+///   Nothing is sent before the first list: a system without plumb-objects has no object messages
+///   on its bus.
+/// Time:
+///   As CanGate, whose ticks these are.
+/// Memory:
+///   kMaxPending lists in place. When the queue is full, the oldest is dropped and counted.
 #pragma once
 
 #include <array>
@@ -21,7 +24,7 @@
 
 namespace plumb {
 
-/// What one OBJECTS says to the bus, the nearest object first.
+/// What one OBJECTS gives to the bus, the nearest object first.
 struct CanObjects {
   std::int64_t seq = 0;
   CanObjectCounts counts;
@@ -32,11 +35,11 @@ class CanObjectGate {
  public:
   static constexpr std::size_t kMaxPending = 16;
 
-  /// `messages` as make_messages() returned it for this `config`.
+  /// @pre `messages` are those of this `config`
   CanObjectGate(const CanConfig& config, const Messages& messages);
 
   void on_objects(const CanObjects& objects, std::int64_t now_us);
-  /// Sends what is due; call with every tick of CanGate.
+  /// Sends what is due. Call it with every tick of CanGate.
   void tick(std::int64_t now_us, CanSink& sink);
 
   [[nodiscard]] bool idle() const { return pending_.empty(); }

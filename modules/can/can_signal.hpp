@@ -1,8 +1,12 @@
 /// A signal and a message as tables: what the codec, the gates and the DBC are made from.
 ///
-/// Units   SI, signs per ISO 8855 (x forward, y left, z up); each signal's comment states its own.
-/// Raw     unsigned; physical = raw * factor + offset. A signal with `has_sna` keeps all ones for
-///         "not available" (NaN here) and saturates at all ones - 1 and at 0: a value never wraps.
+/// Units:
+///   SI units and signs per ISO 8855 (x forward, y left, z up); each signal's comment states its
+///   own.
+/// Raw values:
+///   They are unsigned; physical = raw * factor + offset. A signal with `has_sna` keeps all ones
+///   for "not available" (NaN here). A value outside the range becomes the nearest end of the
+///   range.
 #pragma once
 
 #include <array>
@@ -37,11 +41,11 @@ struct SignalLayout {
   ByteOrder order = ByteOrder::kIntel;
 };
 
-/// Largest raw value that stands for a physical one.
+/// Returns the largest raw value that stands for a physical one.
 [[nodiscard]] constexpr std::uint64_t max_raw(const SignalLayout& layout) {
   return (std::uint64_t{1} << static_cast<unsigned>(layout.length)) - (layout.has_sna ? 2U : 1U);
 }
-/// The raw value of "not available", all ones. @pre has_sna
+/// Returns the raw value of "not available", all ones. @pre has_sna
 [[nodiscard]] constexpr std::uint64_t sna_raw(const SignalLayout& layout) {
   return max_raw(layout) + 1;
 }
@@ -50,7 +54,8 @@ struct SignalLayout {
   return static_cast<double>(max_raw(layout)) * layout.factor + layout.offset;
 }
 
-/// Position in the message of bit `i` of the raw value, counted from its least significant bit.
+/// Returns the position in the message of bit `i` of the raw value, counted from its least
+/// significant bit.
 [[nodiscard]] constexpr unsigned bit_position(const SignalLayout& layout, int i) {
   if (layout.order == ByteOrder::kIntel) return static_cast<unsigned>(layout.start_bit + i);
   // Motorola counts from the most significant bit down, and on to the next byte's bit 7. With bytes
@@ -75,8 +80,16 @@ struct SignalValue {
   bool only_when_valid = false;
 };
 
-/// Number of the alternative in SignalValue::get.
-enum class CanSource : std::uint8_t { kFraming, kState, kEgo, kPlane, kMount, kObjects, kObject };
+/// What a signal is read from: the number of the alternative in SignalValue::get.
+enum class CanSource : std::uint8_t {
+  kFraming,
+  kState,
+  kEgo,
+  kPlane,
+  kMountCheck,
+  kObjectList,
+  kObject,
+};
 inline constexpr std::size_t kNumSources = 7;
 
 /// A value that is available whenever its source is; `Read` is a lambda without captures.
@@ -111,7 +124,8 @@ struct Signal {
   return own != nullptr && *own == framing;
 }
 
-/// For a static_assert beside each table: signals fit the message and share no bit.
+/// Returns whether the signals fit into the message, share no bit, and have room for all of their
+/// named values. Each table has a static_assert of it.
 [[nodiscard]] constexpr bool fit_message(std::span<const Signal> signals) {
   std::array<bool, 8 * kMessageBytes> taken{};
   if (signals.size() > kMaxSignals) return false;
@@ -140,18 +154,18 @@ struct Message {
   const MessageRow* row = nullptr;
   CanAddress address;
   std::span<const Signal> signals;
-  /// Place of each signal's value among those of its source.
+  /// Index of each signal's value in the SourceValues of its source.
   std::array<std::uint8_t, kMaxSignals> slot{};
 };
 using Messages = std::array<Message, kNumMessages>;
 
-/// The values that one message of a source gives to its signals, by slot. NaN: not available.
+/// The values that one input gives to its signals, by slot. NaN: not available.
 using SourceValues = std::array<double, kMaxSourceSignals>;
 /// The values of one CAN message, by signal. NaN: not available.
 using MessageValues = std::array<double, kMaxSignals>;
 
-/// The send table of one configuration. Throws what can_addresses() throws; std::logic_error when
-/// `tables` lacks a message, or a source has more than kMaxSourceSignals.
+/// Returns the messages of one configuration. Throws what can_addresses() throws, and
+/// std::logic_error when `tables` lacks a message or a source has more than kMaxSourceSignals.
 [[nodiscard]] Messages make_messages(const CanConfig& config, std::span<const SignalTable> tables);
 
 }  // namespace plumb

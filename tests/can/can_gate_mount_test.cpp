@@ -1,4 +1,4 @@
-// The mount's status: when it reaches the bus, when it is not available, and what of MOUNT is believed.
+// When the mount's status reaches the bus, when it is not available, which MOUNT is refused.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -277,6 +277,33 @@ TEST(CanOutputTest, ARejectedMessageIsCountedAndShown) {
   EXPECT_TRUE(std::isnan(sink.newest()["EgoMotion_Validity"]));
 }
 
+TEST(CanOutputTest, TwoCamerasShareOneBus) {
+  CanConfig second;
+  second.base_id = 0x3C0;
+  second.base_data_id = 0x3C00;
+  CanOutput front{CanConfig{}};
+  CanOutput rear{second};
+  RecordingSink bus;
+  for (CanOutput* const output : {&front, &rear}) {
+    ASSERT_EQ(output->on_ground_plane(make_plane(), 0), nullptr);
+    ASSERT_EQ(output->on_ego_motion(make_ego(), 0), nullptr);
+    for (int i = 0; i < 100; ++i) output->tick(i * CanGate::kTickUs, bus);
+  }
+  const Messages theirs = can_messages(second);
+  std::size_t num_front = 0;
+  for (const Sent& s : bus.sent) {
+    int num_owners = 0;
+    for (std::size_t i = 0; i < kNumMessages; ++i) {
+      MessageValues values;
+      const bool is_front = decode(default_messages()[i], s.frame, &values);
+      num_front += is_front ? 1 : 0;
+      num_owners += (is_front ? 1 : 0) + (decode(theirs[i], s.frame, &values) ? 1 : 0);
+    }
+    ASSERT_EQ(num_owners, 1) << s.frame.id;
+  }
+  EXPECT_EQ(2 * num_front, bus.sent.size());
+}
+
 /// Plays messages through the virtual clock as a replay does.
 class VirtualClock : public ::testing::Test {
  protected:

@@ -1,5 +1,6 @@
-// config/plumbline.dbc is what a receiver is built from: the file is compared with what the program prints,
-// and both, by a reader of the tests' own, with the tables of signals and the constants of the messages.
+// config/plumbline.dbc is what a receiver is built from. The file is compared with what the program
+// prints and, through a reader of the tests' own, with the tables of signals and the constants of
+// the messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
