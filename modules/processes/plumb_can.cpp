@@ -124,6 +124,7 @@ int main(int argc, char** argv) {
   const int code = process.run(argc, argv, &config, [&] {
     if (interface.empty() && path.empty())
       throw plumb::UsageError("give --interface, --trace or both");
+    (void)can_addresses(config.can);  // refused before the trace file is created
     sinks.open(interface, path);
     can.emplace(process, config.can, sinks);
   });
