@@ -10,7 +10,7 @@ namespace plumb {
 /// Classic CAN (up to 8 bytes) or CAN FD (up to 64).
 struct CanFrame {
   std::uint32_t id = 0;   ///< 11-bit, or 29-bit when `extended`
-  std::uint8_t size = 0;  ///< bytes of data that hold
+  std::uint8_t size = 0;  ///< number of valid bytes in `data`
   bool extended = false;
   bool fd = false;  ///< CAN FD frame, sent with bit rate switch
   std::array<std::uint8_t, 64> data{};

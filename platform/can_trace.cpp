@@ -14,7 +14,7 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 constexpr std::size_t kMaxLineBytes = 256;  // 64 bytes of data are 128 digits
 constexpr std::int64_t kSecondUs = 1'000'000;
 
-/// Value of one hexadecimal digit, -1 when it is none.
+/// Returns the value of a hexadecimal digit, -1 for any other character.
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
@@ -22,7 +22,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-/// Reads `text` (identifier, #, data) as candump writes it.
+/// Parses "identifier#data" as candump writes it.
 bool parse_frame(const char* text, CanFrame* frame) {
   const char* hash = std::strchr(text, '#');
   if (hash == nullptr) return false;

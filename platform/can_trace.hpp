@@ -1,7 +1,9 @@
-/// CAN frames in a text file, in the format of `candump -L`: a sink equal to a bus, and a reader.
+/// Writes CAN frames to a text file in the format of `candump -L`, and reads such files.
 ///
-/// Format   one line per frame, `(1436509052.249713) can0 3A0#DEADBEEF`; CAN FD `3A0##1DEADBEEF`.
-/// Memory   the writer owns one buffer; nothing grows after construction.
+/// Format:
+///   One line per frame: `(1436509052.249713) can0 3A0#DEADBEEF`; for CAN FD `3A0##1DEADBEEF`.
+/// Memory:
+///   The writer owns one buffer; nothing grows after construction.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +17,24 @@
 
 namespace plumb {
 
-/// Writes a trace. The first failure (full disk) is kept and ends the writing; frames never throw.
+/// Writes a trace. After a failure, for example a full disk, error() names it and nothing more is
+/// written; send() never throws.
 class CanTraceWriter final : public CanSink {
  public:
-  /// Creates or replaces the file; see error(). `interface` is the name printed on each line.
+  /// Creates or replaces the file; error() tells a failure. `interface` is the name on each line.
   CanTraceWriter(const std::string& path, const std::string& interface);
   ~CanTraceWriter() override;
   CanTraceWriter(const CanTraceWriter&) = delete;
   CanTraceWriter& operator=(const CanTraceWriter&) = delete;
 
-  /// Added to every time stamp, for example to turn a monotonic clock into the calendar's.
+  /// Sets what is added to every time stamp, for example to turn a monotonic clock into calendar
+  /// time.
   void set_time_offset_us(std::int64_t offset_us) { offset_us_ = offset_us; }
 
   void send(std::int64_t time_us, const CanFrame& frame) override;
-  /// Hands everything written to the system. False when the trace is broken.
+  /// Writes the buffer to the file. Returns false after a failure.
   bool flush();
-  /// "FILE: cannot write: No space left on device"; empty while all is well.
+  /// "FILE: cannot write: No space left on device"; empty without a failure.
   [[nodiscard]] const std::string& error() const { return error_; }
   [[nodiscard]] std::int64_t num_frames() const { return num_frames_; }
 
@@ -50,12 +54,13 @@ class CanTraceWriter final : public CanSink {
 /// Reads a trace line by line; empty lines are skipped.
 class CanTraceReader {
  public:
-  /// See error() when the file cannot be opened.
+  /// error() tells when the file cannot be opened.
   explicit CanTraceReader(const std::string& path);
 
-  /// False at the end and at the first line that is not a frame; then error() names it.
+  /// Returns false at the end of the file and at the first line that is not a frame, which error()
+  /// names.
   [[nodiscard]] bool next(std::int64_t* time_us, CanFrame* frame);
-  /// "FILE:line: not a CAN frame"; empty while all is well.
+  /// "FILE:line: not a CAN frame"; empty without a failure.
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:

@@ -40,6 +40,8 @@ struct Process::Impl {
   std::string url;
   std::string config_path;
   bool print_config = false;
+  bool print_text = false;
+  std::function<std::string()> text;
   std::function<void(CLI::App&)> declare;
   Counters counters;
   StageTimer timer;
@@ -65,6 +67,11 @@ void Process::declare_options(std::function<void(CLI::App&)> declare) {
   impl_->declare = std::move(declare);
 }
 
+void Process::declare_print(const char* flag, const char* help, std::function<std::string()> text) {
+  impl_->app.add_flag(flag, impl_->print_text, help);
+  impl_->text = std::move(text);
+}
+
 const std::string& Process::config_path() const { return impl_->config_path; }
 Bus& Process::bus() { return *impl_->bus; }
 EventLoop& Process::loop() { return *impl_->loop; }
@@ -80,8 +87,9 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
     if (done >= 0) return done;
     check_url(impl_->url);
     config.load(impl_->config_path);
-    if (impl_->print_config) {
-      std::fputs(config.render().c_str(), stdout);
+    if (impl_->print_config || impl_->print_text) {
+      const std::string text = impl_->print_config ? config.render() : impl_->text();
+      std::fputs(text.c_str(), stdout);
       return std::fflush(stdout) == 0 ? kExitOk : kExitMachine;
     }
     serve(setup);

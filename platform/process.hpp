@@ -59,6 +59,10 @@ class Process {
   /// Adds options of this program. `declare` runs within run() and needs <CLI/CLI.hpp>.
   void declare_options(std::function<void(CLI::App&)> declare);
 
+  /// Adds a flag that, like --print-config, prints a text made from the configuration and ends the
+  /// program. `text` may throw InputError.
+  void declare_print(const char* flag, const char* help, std::function<std::string()> text);
+
   /// Parses the options, fills `config`, joins the LCM network, calls `setup` and serves until a
   /// stop signal. Returns the exit code.
   template <typename Config>

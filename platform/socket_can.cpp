@@ -17,7 +17,7 @@ namespace {
 
 std::string reason(const char* what) { return std::string(what) + ": " + std::strerror(errno); }
 
-/// Index of an interface that is up, else 0 and why.
+/// Returns the index of an interface that is up; otherwise 0, and why.
 int interface_index(int fd, const std::string& interface, std::string* why) {
   ifreq request{};
   if (interface.empty() || interface.size() >= sizeof request.ifr_name) {
@@ -40,7 +40,7 @@ int interface_index(int fd, const std::string& interface, std::string* why) {
   return request.ifr_ifindex;
 }
 
-/// Nothing is received but error frames; CAN FD frames may be sent where the interface can.
+/// Receives error frames only; sends CAN FD frames where the interface can.
 bool set_options(int fd, std::string* why) {
   const can_err_mask_t errors = CAN_ERR_MASK;
   const int on = 1;
@@ -66,7 +66,7 @@ int SocketCan::open_raw(const std::string& interface, std::string* why) {
   address.can_family = AF_CAN;
   address.can_ifindex = interface_index(fd, interface, why);
   if (address.can_ifindex != 0 && set_options(fd, why)) {
-    // sockets take any address type through sockaddr
+    // Sockets take every kind of address as a sockaddr.
     if (::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return fd;
     *why = reason("cannot bind");
   }
@@ -100,7 +100,7 @@ void SocketCan::send(std::int64_t time_us, const CanFrame& frame) {
     ++counters_.num_unsent;
     return;
   }
-  // Behind frames that wait, a new one waits too: the order is part of the burst.
+  // A new frame waits behind those that wait already: the order of a burst must stay.
   if (pending_.empty()) {
     const Result result = write(frame);
     if (result == Result::kDown) ++counters_.num_unsent;
@@ -127,7 +127,7 @@ SocketCan::Result SocketCan::write(const CanFrame& frame) {
   out.len = frame.size;
   out.flags = frame.fd ? CANFD_BRS : 0;
   std::copy_n(frame.data.begin(), frame.size, out.data);
-  // The size of the write tells the kernel which kind it is; both begin alike.
+  // The size of the write tells the kernel which kind of frame it is; both begin alike.
   const std::size_t bytes = frame.fd ? CANFD_MTU : CAN_MTU;
   const ssize_t n = ::send(fd_, &out, bytes, MSG_DONTWAIT | MSG_NOSIGNAL);
   if (n == static_cast<ssize_t>(bytes)) {

@@ -1,9 +1,10 @@
 /// A CAN interface through SocketCAN: sends, retries what the queue did not take, counts errors.
 ///
 /// The interface may be absent or down: it is tried again every second, and state() says why.
-/// Receives nothing but error frames. Never blocks and never throws.
+/// Receives nothing but error frames. Its functions never block and never throw.
 ///
-/// Memory   kMaxPending frames in place.
+/// Memory:
+///   kMaxPending frames in place.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +17,14 @@
 namespace plumb {
 
 struct SocketCanCounters {
-  std::int64_t num_sent = 0;     ///< taken by the kernel
-  std::int64_t num_retried = 0;  ///< of them, not at the first attempt (ENOBUFS, EAGAIN)
-  std::int64_t num_unsent = 0;   ///< given up: too old, queue full, interface down
+  std::int64_t num_sent = 0;     ///< frames that the kernel took
+  std::int64_t num_retried = 0;  ///< frames it took after it had refused them (ENOBUFS, EAGAIN)
+  std::int64_t num_unsent = 0;   ///< frames given up: too old, queue full, interface down
   std::int64_t num_opened = 0;   ///< times the interface came up
-  std::int64_t num_errors = 0;   ///< error frames
-  std::int64_t num_bus_off = 0;  ///< of them, bus-off
-  std::int64_t num_passive = 0;  ///< of them, error passive or warning
-  std::int64_t num_unacked = 0;  ///< of them, nobody acknowledged
+  std::int64_t num_errors = 0;   ///< error frames received; the next three count kinds of them
+  std::int64_t num_bus_off = 0;  ///< the controller went bus-off
+  std::int64_t num_passive = 0;  ///< the controller is error passive or warns
+  std::int64_t num_unacked = 0;  ///< nobody acknowledged a frame
 };
 
 class SocketCan final : public CanSink {

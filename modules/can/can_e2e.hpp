@@ -1,8 +1,11 @@
 /// AUTOSAR E2E profile 11, variant 11A: CRC-8 in byte 0, alive counter 0..14 in the low half of
 /// byte 1, the 16-bit data ID enters the CRC and is not sent.
 ///
-/// CRC  SAE J1850 polynomial 0x1D, start 0, no final xor, over: data ID low byte, high byte, then
-///      every byte of the frame after the CRC.
+/// CRC:
+///   Polynomial 0x1D (SAE J1850), start 0, no final xor. It runs over the low byte and the high
+///   byte of the data ID, then over every byte of the frame after the CRC.
+/// Source:
+///   AUTOSAR, Specification of SW-C End-to-End Communication Protection Library, profile 11.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +22,7 @@ inline constexpr std::uint8_t kE2eCounterModulo = 15;  ///< 15 is never sent
 /// Writes counter and CRC. @pre data.size() >= 2, counter < kE2eCounterModulo
 void e2e_protect(std::span<std::uint8_t> data, std::uint16_t data_id, std::uint8_t counter);
 
-/// True when the CRC fits and the counter is a value that is ever sent.
+/// Returns whether the CRC fits and the counter is one that is ever sent.
 [[nodiscard]] bool e2e_check(std::span<const std::uint8_t> data, std::uint16_t data_id);
 
 }  // namespace plumb

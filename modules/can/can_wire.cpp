@@ -1,41 +1,16 @@
 #include "modules/can/can_wire.hpp"
 
 #include <cmath>
+#include <iterator>
 
-#include "core/same_value.hpp"
+#include "modules/can/validity_wire.hpp"
 #include "plumb/detection_t.hpp"
-#include "plumb/vo_motion_t.hpp"
 
 namespace plumb {
 namespace {
 
-static_assert(same(CanEgoStatus::kOk, ego_motion_t::STATUS_OK));
-static_assert(same(CanEgoStatus::kInitializing, ego_motion_t::STATUS_INITIALIZING));
-static_assert(same(CanEgoStatus::kScaleHeld, ego_motion_t::STATUS_SCALE_HELD));
-static_assert(same(CanEgoStatus::kStandstill, ego_motion_t::STATUS_STANDSTILL));
-static_assert(same(CanEgoStatus::kCoasting, ego_motion_t::STATUS_COASTING));
-static_assert(same(CanEgoStatus::kLost, ego_motion_t::STATUS_LOST));
-static_assert(same(CanPlaneStatus::kOk, ground_plane_t::STATUS_OK));
-static_assert(same(CanPlaneStatus::kInitializing, ground_plane_t::STATUS_INITIALIZING));
-static_assert(same(CanPlaneStatus::kHeld, ground_plane_t::STATUS_HELD));
-static_assert(same(CanPlaneStatus::kInvalid, ground_plane_t::STATUS_INVALID));
-
-static_assert(static_cast<int>(CanMountStatus::kCollecting) == mount_t::STATUS_COLLECTING);
-static_assert(static_cast<int>(CanMountStatus::kUnsteady) == mount_t::STATUS_UNSTEADY);
-static_assert(static_cast<int>(CanMountStatus::kSteady) == mount_t::STATUS_STEADY);
-static_assert(static_cast<int>(CanMountStatus::kMoved) == mount_t::STATUS_MOVED);
-
-static_assert(static_cast<int>(CanObjectStatus::kMeasured) == object_t::STATUS_MEASURED);
-static_assert(static_cast<int>(CanObjectStatus::kPredicted) == object_t::STATUS_PREDICTED);
-static_assert(static_cast<int>(CanObjectStatus::kNotLocalised) == object_t::STATUS_NOT_LOCALISED);
-
-// Reasons travel in 4 bits, all ones is taken.
+// Reasons travel in 4 bits; all ones means "not available".
 constexpr int kMaxReason = 14;
-static_assert(vo_motion_t::REASON_RESTARTED <= kMaxReason);
-static_assert(ground_plane_t::REASON_NO_CALIBRATION <= kMaxReason);
-static_assert(mount_t::REASON_TURNING <= kMaxReason);
-
-bool is_deviation(double value) { return std::isfinite(value) && value >= 0.0; }
 
 bool motion_is_sound(const ego_motion_t& m) {
   double q2 = 0.0;
@@ -49,218 +24,193 @@ bool motion_is_sound(const ego_motion_t& m) {
   }
   // A car that has not moved yet stands still at no known scale.
   const bool scale_holds =
-      is_deviation(m.log_scale_std) ||
+      is_std(m.log_scale_std) ||
       (m.status == ego_motion_t::STATUS_STANDSTILL && std::isnan(m.log_scale_std));
-  return is_deviation(m.speed_std_m_s) && is_deviation(m.yaw_rate_std_rad_s) &&
-         is_deviation(m.distance_m) && scale_holds;
+  return is_std(m.speed_std_m_s) && is_std(m.yaw_rate_std_rad_s) && is_std(m.distance_m) &&
+         scale_holds;
 }
 
-/// Heading of the optical axis about the first image's up axis, left positive.
-double heading_rad(const double (&q)[4]) {
-  const double forward_x = 2.0 * (q[1] * q[3] + q[0] * q[2]);  // R(0,2), to the right
-  const double forward_z = 1.0 - 2.0 * (q[1] * q[1] + q[2] * q[2]);
-  return std::atan2(-forward_x, forward_z);
+bool plane_is_sound(const ground_plane_t& m) {
+  for (int i = 0; i < 3; ++i) {
+    if (!is_std(m.cov[i][i])) return false;
+  }
+  return std::isfinite(m.pitch_rad) && std::isfinite(m.roll_rad) && std::isfinite(m.height_m) &&
+         m.height_m > 0.0;
 }
 
-/// Standard deviation, or not available.
-double deviation(double variance) {
-  return is_deviation(variance) ? std::sqrt(variance) : kNotAvailable;
+bool mount_is_sound(const mount_t& m) {
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(m.reference_rad[i]) || std::isinf(m.recent_rad[i])) return false;
+    // A reference of an earlier run is steady before this one's first stretch.
+    if (std::isnan(m.recent_rad[i]) && m.status == mount_t::STATUS_MOVED) return false;
+  }
+  return true;
 }
 
 bool place_is_sound(const object_t& o) {
   return std::isfinite(o.position_ground_m[0]) && std::isfinite(o.position_ground_m[1]) &&
-         is_deviation(o.position_cov_m2[0][0]) && is_deviation(o.position_cov_m2[1][1]) &&
-         is_deviation(o.size_m[1]) && is_deviation(o.age_s);
+         is_std(o.position_cov_m2[0][0]) && is_std(o.position_cov_m2[1][1]) &&
+         is_std(o.size_m[1]) && is_std(o.age_s);
 }
 
-bool from_wire(const object_t& message, CanObject* object) {
-  if (message.status < object_t::STATUS_MEASURED ||
-      message.status > object_t::STATUS_NOT_LOCALISED ||
-      message.class_id < detection_t::CLASS_UNKNOWN ||
-      message.class_id > detection_t::CLASS_CYCLIST) {
-    return false;
+/// Gives every signal that comes from this message its value.
+template <typename Source>
+void read_signals(const Source& source, bool is_valid, const Messages& messages,
+                  SourceValues* values) {
+  values->fill(kNotAvailable);
+  for (const Message& message : messages) {
+    for (std::size_t i = 0; i < message.signals.size(); ++i) {
+      const SignalValue& value = message.signals[i].value;
+      const auto* const get = std::get_if<Getter<Source>>(&value.get);
+      if (get == nullptr || (value.only_when_valid && !is_valid)) continue;
+      (*values)[message.slot[i]] = (*get)(source);
+    }
   }
-  object->id = message.track_id;
-  object->object_class = static_cast<int>(message.class_id);
-  object->status = static_cast<CanObjectStatus>(message.status);
-  if (object->status == CanObjectStatus::kNotLocalised) return true;
-  if (!place_is_sound(message)) return false;
-  object->x_m = message.position_ground_m[0];
-  object->y_m = message.position_ground_m[1];
-  object->x_std_m = deviation(message.position_cov_m2[0][0]);
-  object->y_std_m = deviation(message.position_cov_m2[1][1]);
-  object->width_m = message.size_m[1];
-  object->age_s = message.age_s;
-  if (std::isfinite(message.time_to_collision_s))
-    object->time_to_collision_s = message.time_to_collision_s;
-  if (std::isfinite(message.velocity_ground_m_s[0]) &&
-      std::isfinite(message.velocity_ground_m_s[1])) {
-    object->vx_m_s = message.velocity_ground_m_s[0];
-    object->vy_m_s = message.velocity_ground_m_s[1];
-    object->vx_std_m_s = deviation(message.velocity_cov_m2_s2[0][0]);
-    object->vy_std_m_s = deviation(message.velocity_cov_m2_s2[1][1]);
+}
+
+template <typename Source>
+void fill_sample(const Source& source, const Messages& messages, CanSample* sample) {
+  sample->validity = validity_of(source);
+  read_signals(source, sample->validity != CanValidity::kInvalid, messages, &sample->values);
+}
+
+/// Null when the object keeps its contract, else what breaks it.
+const char* fault_of(const object_t& o) {
+  if (o.status < object_t::STATUS_MEASURED || o.status > object_t::STATUS_NOT_LOCALISED) {
+    return "unknown status of an object";
   }
-  return true;
+  if (o.class_id < detection_t::CLASS_UNKNOWN || o.class_id > detection_t::CLASS_CYCLIST) {
+    return "unknown class of an object";
+  }
+  if (o.status != object_t::STATUS_NOT_LOCALISED && !place_is_sound(o)) {
+    return "an object's place is not a number";
+  }
+  return nullptr;
 }
 
-double range_m(const CanObject& object) { return std::hypot(object.x_m, object.y_m); }
-
-/// Keeps the list sorted; what no longer fits counts as left out.
-void insert_nearest(const CanObject& object, CanObjects* list) {
-  std::size_t place = list->num_objects;
-  while (place > 0 && range_m(list->objects[place - 1]) > range_m(object)) --place;
-  if (list->num_objects == kMaxCanObjects) ++list->num_left_out;
-  if (place == kMaxCanObjects) return;
-  if (list->num_objects < kMaxCanObjects) ++list->num_objects;
-  for (std::size_t i = list->num_objects - 1; i > place; --i)
-    list->objects[i] = list->objects[i - 1];
-  list->objects[place] = object;
+double range_m(const object_t& o) {
+  return std::hypot(o.position_ground_m[0], o.position_ground_m[1]);
 }
+
+/// The nearest objects with a place on the road, in order; of equally near ones the first.
+class NearestObjects {
+ public:
+  void insert(const object_t& object) {
+    std::size_t place = size_;
+    while (place > 0 && range_m(*objects_[place - 1]) > range_m(object)) --place;
+    if (place == kMaxCanObjects) return;
+    if (size_ < kMaxCanObjects) ++size_;
+    for (std::size_t i = size_ - 1; i > place; --i) objects_[i] = objects_[i - 1];
+    objects_[place] = &object;
+  }
+  [[nodiscard]] std::span<const object_t* const> all() const { return {objects_.data(), size_}; }
+
+ private:
+  std::array<const object_t*, kMaxCanObjects> objects_{};
+  std::size_t size_ = 0;
+};
 
 }  // namespace
 
-bool from_wire(const ego_motion_t& message, CanEgo* ego) {
-  if (message.seq < 0 || message.status < ego_motion_t::STATUS_OK ||
-      message.status > ego_motion_t::STATUS_LOST || message.reason < 0 ||
-      message.reason > kMaxReason) {
-    return false;
+const char* from_wire(const ego_motion_t& message, const Messages& messages, CanSample* ego) {
+  if (message.seq < 0) return "negative sequence number";
+  if (message.status < ego_motion_t::STATUS_OK || message.status > ego_motion_t::STATUS_LOST) {
+    return "unknown status";
   }
-  *ego = CanEgo{};
+  if (message.reason < 0 || message.reason > kMaxReason) return "unknown reason";
+  if (validity_of(message) != CanValidity::kInvalid && !motion_is_sound(message)) {
+    return "motion is not a number although its status is valid";
+  }
   ego->seq = message.seq;
-  ego->status = static_cast<CanEgoStatus>(message.status);
-  ego->reason = static_cast<int>(message.reason);
-  ego->reset_counter = message.reset_counter;
-  if (ego->status == CanEgoStatus::kInitializing || ego->status == CanEgoStatus::kLost) return true;
-  if (!motion_is_sound(message)) return false;
-
-  ego->speed_m_s = message.velocity_ground_m_s[0];
-  ego->lateral_speed_m_s = message.velocity_ground_m_s[1];
-  ego->speed_std_m_s = message.speed_std_m_s;
-  ego->yaw_rate_rad_s = message.rate_ground_rad_s[2];
-  ego->yaw_rate_std_rad_s = message.yaw_rate_std_rad_s;
-  if (std::isfinite(message.accel_forward_m_s2) && is_deviation(message.accel_forward_std_m_s2)) {
-    ego->accel_m_s2 = message.accel_forward_m_s2;
-    ego->accel_std_m_s2 = message.accel_forward_std_m_s2;
-  }
-  // The world is the first image's camera (x right, y down, z forward); CAN speaks ISO 8855.
-  ego->x_m = message.t_world_cam_m[2];
-  ego->y_m = -message.t_world_cam_m[0];
-  ego->z_m = -message.t_world_cam_m[1];
-  ego->heading_rad = heading_rad(message.q_world_cam);
-  ego->distance_m = message.distance_m;
-  ego->scale_std_ratio = message.log_scale_std;
-  return true;
+  ego->is_initializing = message.status == ego_motion_t::STATUS_INITIALIZING;
+  fill_sample(message, messages, ego);
+  return nullptr;
 }
 
-bool from_wire(const ground_plane_t& message, CanPlane* plane) {
-  constexpr int kNumCues = 3;
-  if (message.seq < 0 || message.status < ground_plane_t::STATUS_OK ||
-      message.status > ground_plane_t::STATUS_INVALID || message.reason < 0 ||
-      message.reason > kMaxReason || message.num_cues < 0 || message.num_cues > kNumCues) {
-    return false;
+const char* from_wire(const ground_plane_t& message, const Messages& messages, CanSample* plane) {
+  constexpr int kNumCues = static_cast<int>(std::size(ground_plane_t{}.cues));
+  if (message.seq < 0) return "negative sequence number";
+  if (message.status < ground_plane_t::STATUS_OK ||
+      message.status > ground_plane_t::STATUS_INVALID) {
+    return "unknown status";
   }
-  *plane = CanPlane{};
+  if (message.reason < 0 || message.reason > kMaxReason) return "unknown reason";
+  if (message.num_cues < 0 || message.num_cues > kNumCues) return "wrong number of cues";
+  if (validity_of(message) != CanValidity::kInvalid && !plane_is_sound(message)) {
+    return "plane is not a number although its status is valid";
+  }
   plane->seq = message.seq;
-  plane->status = static_cast<CanPlaneStatus>(message.status);
-  plane->reason = static_cast<int>(message.reason);
-  for (int i = 0; i < message.num_cues; ++i) {
-    if (message.cues[i].status == 0) plane->cues_used += 1 << i;
-  }
-  if (plane->status != CanPlaneStatus::kOk && plane->status != CanPlaneStatus::kHeld) return true;
-  if (!std::isfinite(message.pitch_rad) || !std::isfinite(message.roll_rad) ||
-      !std::isfinite(message.height_m) || message.height_m <= 0.0) {
-    return false;
-  }
-  for (int i = 0; i < 3; ++i) {
-    if (!is_deviation(message.cov[i][i])) return false;
-  }
-  plane->pitch_rad = message.pitch_rad;
-  plane->roll_rad = message.roll_rad;
-  plane->height_m = message.height_m;
-  plane->pitch_std_rad = std::sqrt(message.cov[0][0]);
-  plane->roll_std_rad = std::sqrt(message.cov[1][1]);
-  plane->height_std_m = message.height_m * std::sqrt(message.cov[2][2]);
-  return true;
+  plane->is_initializing = message.status == ground_plane_t::STATUS_INITIALIZING;
+  fill_sample(message, messages, plane);
+  return nullptr;
 }
 
-bool from_wire(const mount_t& message, CanMount* mount) {
-  if (message.status < mount_t::STATUS_COLLECTING || message.status > mount_t::STATUS_MOVED ||
-      message.reason < 0 || message.reason > kMaxReason ||
-      !(message.progress >= 0.0 && message.progress <= 1.0)) {
-    return false;
+const char* from_wire(const mount_t& message, const Messages& messages, CanSample* mount) {
+  if (message.status < mount_t::STATUS_COLLECTING || message.status > mount_t::STATUS_MOVED) {
+    return "unknown status";
   }
-  *mount = CanMount{};
-  mount->status = static_cast<CanMountStatus>(message.status);
-  mount->reason = static_cast<int>(message.reason);
-  mount->progress = message.progress;
-  const bool moved = mount->status == CanMountStatus::kMoved;
-  if (!moved && mount->status != CanMountStatus::kSteady) return true;
-  double* const angles[] = {&mount->pitch_rad, &mount->roll_rad, &mount->yaw_rad};
-  for (int i = 0; i < 3; ++i) {
-    const double recent_rad = message.recent_rad[i];
-    if (!std::isfinite(message.reference_rad[i]) || std::isinf(recent_rad)) return false;
-    // A reference of an earlier run is steady before this one's first stretch.
-    if (std::isnan(recent_rad) && moved) return false;
-    *angles[i] = recent_rad - message.reference_rad[i];
+  if (message.reason < 0 || message.reason > kMaxReason) return "unknown reason";
+  if (!(message.progress >= 0.0 && message.progress <= 1.0)) return "progress outside [0, 1]";
+  if (validity_of(message) != CanValidity::kInvalid && !mount_is_sound(message)) {
+    return "angles are not numbers although there is a reference";
   }
-  return true;
+  fill_sample(message, messages, mount);
+  return nullptr;
 }
 
-bool from_wire(const objects_t& message, CanObjects* objects) {
-  if (message.seq < 0 || message.num_objects < 0 || message.num_refused < 0 ||
-      message.num_objects > objects_t::MAX_OBJECTS ||
-      message.objects.size() != static_cast<std::size_t>(message.num_objects)) {
-    return false;
+const char* from_wire(const objects_t& message, const Messages& messages, CanObjects* objects) {
+  if (message.seq < 0) return "negative sequence number";
+  if (message.num_objects < 0 || message.num_objects > objects_t::MAX_OBJECTS ||
+      message.objects.size() != static_cast<std::size_t>(message.num_objects) ||
+      message.num_refused < 0) {
+    return "wrong number of objects";
   }
-  *objects = CanObjects{};
-  objects->seq = message.seq;
-  objects->num_left_out = message.num_refused;
+  NearestObjects nearest;
   for (const object_t& object : message.objects) {
-    CanObject one;
-    if (!from_wire(object, &one)) return false;
-    if (one.status == CanObjectStatus::kNotLocalised) {
-      ++objects->num_left_out;
-    } else {
-      insert_nearest(one, objects);
-    }
+    if (const char* const fault = fault_of(object)) return fault;
+    if (object.status != object_t::STATUS_NOT_LOCALISED) nearest.insert(object);
   }
-  return true;
+  const std::size_t num_objects = nearest.all().size();
+  objects->seq = message.seq;
+  objects->counts.num_objects = num_objects;
+  objects->counts.num_left_out =
+      message.num_refused + message.num_objects - static_cast<std::int64_t>(num_objects);
+  for (std::size_t i = 0; i < num_objects; ++i) {
+    read_signals(*nearest.all()[i], true, messages, &objects->objects[i]);
+  }
+  return nullptr;
 }
 
-bool CanOutput::on_ground_plane(const ground_plane_t& message, std::int64_t now_us) {
-  if (!from_wire(message, &plane_)) {
-    ++num_rejected_;
-    return false;
-  }
-  gate_.on_ground_plane(plane_, now_us);
-  return true;
+CanOutput::CanOutput(const CanConfig& config)
+    : messages_(can_messages(config)), gate_(config, messages_), object_gate_(config, messages_) {}
+
+const char* CanOutput::on_ground_plane(const ground_plane_t& message, std::int64_t now_us) {
+  const char* const fault = from_wire(message, messages_, &sample_);
+  if (fault == nullptr) gate_.on_ground_plane(sample_, now_us);
+  return counted(fault);
 }
 
-bool CanOutput::on_mount(const mount_t& message, std::int64_t now_us) {
-  if (!from_wire(message, &mount_)) {
-    ++num_rejected_;
-    return false;
-  }
-  gate_.on_mount(mount_, now_us);
-  return true;
+const char* CanOutput::on_ego_motion(const ego_motion_t& message, std::int64_t now_us) {
+  const char* const fault = from_wire(message, messages_, &sample_);
+  if (fault == nullptr) gate_.on_ego_motion(sample_, now_us);
+  return counted(fault);
 }
 
-bool CanOutput::on_objects(const objects_t& message, std::int64_t now_us) {
-  if (!from_wire(message, &objects_)) {
-    ++num_rejected_;
-    return false;
-  }
-  object_gate_.on_objects(objects_, now_us);
-  return true;
+const char* CanOutput::on_mount(const mount_t& message, std::int64_t now_us) {
+  const char* const fault = from_wire(message, messages_, &sample_);
+  if (fault == nullptr) gate_.on_mount(sample_, now_us);
+  return counted(fault);
 }
 
-bool CanOutput::on_ego_motion(const ego_motion_t& message, std::int64_t now_us) {
-  if (!from_wire(message, &ego_)) {
-    ++num_rejected_;
-    return false;
-  }
-  gate_.on_ego_motion(ego_, now_us);
-  return true;
+const char* CanOutput::on_objects(const objects_t& message, std::int64_t now_us) {
+  const char* const fault = from_wire(message, messages_, &objects_);
+  if (fault == nullptr) object_gate_.on_objects(objects_, now_us);
+  return counted(fault);
+}
+
+const char* CanOutput::counted(const char* fault) {
+  if (fault != nullptr) ++num_rejected_;
+  return fault;
 }
 
 void CanOutput::tick(std::int64_t now_us, CanSink& sink) {

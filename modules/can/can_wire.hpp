@@ -1,19 +1,22 @@
-/// GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS -> CAN frames: what plumb-can runs live and plumb-replay runs on a
-/// log.
+/// GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS -> CAN frames: what plumb-can runs live and
+/// plumb-replay runs on a log.
 ///
 /// The input is the LCM message, also in a replay: quaternions and matrices round differently, and
 /// "live equals replay" is judged bit for bit.
 ///
-/// Live     on_*(message, monotonic_us()) as messages arrive, tick(monotonic_us(), sink) from a
-///          timer of CanGate::kTickUs.
-/// Replay   per message on_*(message, message.utime); advance(message.utime, sink) before it;
-///          finish(sink) at the end.
+/// Live:
+///   Call on_*(message, monotonic_us()) as messages arrive, and tick(monotonic_us(), sink) from a
+///   timer of CanGate::kTickUs.
+/// Replay:
+///   For each message call advance(message.utime, sink), then on_*(message, message.utime); at the
+///   end finish(sink).
 #pragma once
 
 #include <cstdint>
 
 #include "modules/can/can_gate.hpp"
 #include "modules/can/can_object_gate.hpp"
+#include "modules/can/signals/signal_tables.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/mount_t.hpp"
@@ -21,31 +24,39 @@
 
 namespace plumb {
 
-/// False when the message breaks its contract: unknown status, negative seq, or a value that its
-/// status says holds is not a number or has a negative variance.
-[[nodiscard]] bool from_wire(const ego_motion_t& message, CanEgo* ego);
-[[nodiscard]] bool from_wire(const ground_plane_t& message, CanPlane* plane);
-[[nodiscard]] bool from_wire(const mount_t& message, CanMount* mount);
-/// The nearest kMaxCanObjects that have a place on the road, nearest first. One broken object breaks the message.
-[[nodiscard]] bool from_wire(const objects_t& message, CanObjects* objects);
+/// Fills the output with the values of all signals that come from the message, and returns null.
+/// Returns what is wrong when the message breaks its contract: an unknown status, a negative seq,
+/// or a value that is not a number, or has a negative variance, although the status says it is
+/// valid. @pre `messages` come from can_messages()
+[[nodiscard]] const char* from_wire(const ego_motion_t& message, const Messages& messages,
+                                    CanSample* ego);
+[[nodiscard]] const char* from_wire(const ground_plane_t& message, const Messages& messages,
+                                    CanSample* plane);
+[[nodiscard]] const char* from_wire(const mount_t& message, const Messages& messages,
+                                    CanSample* mount);
+/// Takes the nearest kMaxCanObjects that have a place on the road, the nearest first. One broken
+/// object breaks the message.
+[[nodiscard]] const char* from_wire(const objects_t& message, const Messages& messages,
+                                    CanObjects* objects);
 
 class CanOutput {
  public:
-  explicit CanOutput(const CanConfig& config) : gate_(config), object_gate_(config) {}
+  /// Throws InputError for identifiers and cycles that do not fit together, see can_addresses().
+  explicit CanOutput(const CanConfig& config);
 
-  /// False when the message was rejected (and counted).
-  bool on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
-  bool on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
-  bool on_mount(const mount_t& message, std::int64_t now_us);
-  bool on_objects(const objects_t& message, std::int64_t now_us);
+  /// They return null, or why the message was rejected and counted.
+  const char* on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
+  const char* on_ego_motion(const ego_motion_t& message, std::int64_t now_us);
+  const char* on_mount(const mount_t& message, std::int64_t now_us);
+  const char* on_objects(const objects_t& message, std::int64_t now_us);
 
-  /// One tick of the caller's timer.
+  /// Sends what is due at one tick of the caller's timer.
   void tick(std::int64_t now_us, CanSink& sink);
 
-  /// Virtual clock: every tick up to and including `now_us`. A step back, or one of more than
-  /// kMaxStepUs forward, first sends what waits and then starts a new grid at `now_us`.
+  /// Virtual clock: runs every tick up to and including `now_us`. After a step back, or one of more
+  /// than kMaxStepUs forward, it sends what waits and starts a new grid of ticks at `now_us`.
   void advance(std::int64_t now_us, CanSink& sink);
-  /// Ticks until no frame waits.
+  /// Runs ticks until no frame waits.
   void finish(CanSink& sink);
 
   /// What only the caller can count, for PLB_Status: messages that did not decode, and frames that
@@ -64,11 +75,12 @@ class CanOutput {
  private:
   static constexpr std::int64_t kMaxStepUs = 10'000'000;
 
+  const char* counted(const char* fault);
+
+  Messages messages_;
   CanGate gate_;
   CanObjectGate object_gate_;
-  CanEgo ego_;
-  CanPlane plane_;
-  CanMount mount_;
+  CanSample sample_;
   CanObjects objects_;
   std::int64_t num_rejected_ = 0;
   std::int64_t num_undecoded_ = 0;

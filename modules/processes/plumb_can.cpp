@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "modules/can/can_dbc.hpp"
 #include "modules/can/can_wire.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "platform/can_trace.hpp"
@@ -52,18 +53,17 @@ class CanProcess {
         output_(config),
         plane_(process.bus(), kGroundPlane, Input::kPeriodic,
                [this](const ground_plane_t& message) {
-                 return output_.on_ground_plane(message, monotonic_us()) ? nullptr : "ground plane";
+                 return output_.on_ground_plane(message, monotonic_us());
                }),
         ego_(process.bus(), kEgoMotion, Input::kPeriodic,
              [this](const ego_motion_t& message) {
-               return output_.on_ego_motion(message, monotonic_us()) ? nullptr : "ego motion";
+               return output_.on_ego_motion(message, monotonic_us());
              }),
-        mount_(process.bus(), kMount, Input::kOccasional,
-               [this](const mount_t& message) {
-                 return output_.on_mount(message, monotonic_us()) ? nullptr : "mount";
-               }),
+        mount_(
+            process.bus(), kMount, Input::kOccasional,
+            [this](const mount_t& message) { return output_.on_mount(message, monotonic_us()); }),
         objects_(process.bus(), kObjects, Input::kOccasional, [this](const objects_t& message) {
-          return output_.on_objects(message, monotonic_us()) ? nullptr : "objects";
+          return output_.on_objects(message, monotonic_us());
         }) {
     process.loop().every(CanGate::kTickUs, [this] { tick(monotonic_us()); });
     if (sinks.trace) process.loop().every(kFlushUs, [this] { sinks_.trace->flush(); });
@@ -117,11 +117,14 @@ int main(int argc, char** argv) {
   });
 
   plumb::PlumbConfig config;
+  process.declare_print("--print-dbc", "print the CAN database of the configuration, then exit",
+                        [&] { return render_dbc(config.can, can_messages(config.can)); });
   plumb::Sinks sinks;
   std::optional<plumb::CanProcess> can;
   const int code = process.run(argc, argv, &config, [&] {
     if (interface.empty() && path.empty())
       throw plumb::UsageError("give --interface, --trace or both");
+    (void)can_addresses(config.can);  // refused before the trace file is created
     sinks.open(interface, path);
     can.emplace(process, config.can, sinks);
   });

@@ -2,73 +2,84 @@
 
 #include <gtest/gtest.h>
 
-#include <bitset>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
 
 #include "core/numbers.hpp"
 #include "modules/can/can_e2e.hpp"
+#include "tests/can/reading.hpp"
 
 namespace plumb {
 namespace {
 
-/// Calls `check(message, signal)` for every signal that carries a value.
+using test::default_messages;
+
+MessageValues no_values() {
+  MessageValues values;
+  values.fill(kNotAvailable);
+  return values;
+}
+
+bool has_value(const Signal& signal) { return source_of(signal) != CanSource::kFraming; }
+
+/// Calls `check(message, number of the signal, its layout)` for every signal that carries a value.
 template <typename Check>
 void for_each_signal(Check check) {
-  for (const Message& message : messages()) {
-    for (const Signal& signal : message.signals) {
-      SCOPED_TRACE(signal.name);
-      if (signal.value != nullptr) check(message, signal);
+  for (const Message& message : default_messages()) {
+    for (std::size_t i = 0; i < message.signals.size(); ++i) {
+      SCOPED_TRACE(message.signals[i].name);
+      if (has_value(message.signals[i])) check(message, i, message.signals[i].layout);
     }
   }
 }
 
-/// Raw value of `signal` after the whole message was encoded with `physical` in it.
-std::uint64_t sent_raw(const Message& message, const Signal& signal, double physical) {
-  CanValues values;
-  values.*signal.value = physical;
-  const CanFrame frame = encode(message, values, 3);
-  EXPECT_TRUE(e2e_check({frame.data.data(), frame.size}, message.data_id));
-  return extract_raw(signal, frame.data);
+/// Raw value of a signal after the whole message was encoded with `physical` in it.
+std::uint64_t sent_raw(const Message& message, std::size_t i, double physical) {
+  MessageValues values = no_values();
+  values[i] = physical;
+  const CanFrame frame = encode(message, values, {3, 0, 0});
+  EXPECT_TRUE(e2e_check({frame.data.data(), frame.size}, message.address.data_id));
+  return extract_raw(message.signals[i].layout, frame.data);
 }
 
 TEST(CanCodec, EverySignalIsExactAtItsMinimum) {
-  for_each_signal([](const Message& message, const Signal& signal) {
-    EXPECT_EQ(sent_raw(message, signal, min_physical(signal)), 0U);
+  for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
+    EXPECT_EQ(sent_raw(message, i, min_physical(signal)), 0U);
   });
 }
 
 TEST(CanCodec, EverySignalIsExactAtItsMaximum) {
-  for_each_signal([](const Message& message, const Signal& signal) {
-    EXPECT_EQ(sent_raw(message, signal, max_physical(signal)), max_raw(signal));
-    CanValues back;
-    CanValues values;
-    values.*signal.value = max_physical(signal);
-    ASSERT_TRUE(decode(message, encode(message, values, 0), &back));
-    EXPECT_EQ(back.*signal.value, max_physical(signal));
+  for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
+    EXPECT_EQ(sent_raw(message, i, max_physical(signal)), max_raw(signal));
+    MessageValues back{};
+    MessageValues values = no_values();
+    values[i] = max_physical(signal);
+    ASSERT_TRUE(decode(message, encode(message, values, {}), &back));
+    EXPECT_EQ(back[i], max_physical(signal));
   });
 }
 
 TEST(CanCodec, EverySignalSaturatesBelowItsMinimum) {
-  for_each_signal([](const Message& message, const Signal& signal) {
+  for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
     for (const double below : {signal.factor, 1e3, 1e9, 1e300, kInf}) {
-      EXPECT_EQ(sent_raw(message, signal, min_physical(signal) - below), 0U) << below;
+      EXPECT_EQ(sent_raw(message, i, min_physical(signal) - below), 0U) << below;
     }
   });
 }
 
 TEST(CanCodec, EverySignalSaturatesAboveItsMaximumAndNeverReachesNotAvailable) {
-  for_each_signal([](const Message& message, const Signal& signal) {
+  for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
     for (const double above : {signal.factor, 1e3, 1e9, 1e300, kInf}) {
-      EXPECT_EQ(sent_raw(message, signal, max_physical(signal) + above), max_raw(signal)) << above;
+      EXPECT_EQ(sent_raw(message, i, max_physical(signal) + above), max_raw(signal)) << above;
     }
   });
 }
 
 TEST(CanCodec, NanIsSentAsAllOnesAndReadBackAsNan) {
-  for_each_signal([](const Message& message, const Signal& signal) {
-    const std::uint64_t raw = sent_raw(message, signal, kNotAvailable);
+  for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
+    const std::uint64_t raw = sent_raw(message, i, kNotAvailable);
     if (!signal.has_sna) {
       EXPECT_EQ(raw, 0U);
       return;
@@ -79,72 +90,70 @@ TEST(CanCodec, NanIsSentAsAllOnesAndReadBackAsNan) {
 }
 
 TEST(CanCodec, TwoHundredAndSixtyDoesNotBecomeFour) {
-  const Signal byte{"Byte", 0, 8, 1.0, 0.0, nullptr};
+  const SignalLayout byte{0, 8};
   EXPECT_EQ(to_raw(byte, 260.0), 254U);
   EXPECT_EQ(to_raw(byte, -1.0), 0U);
 }
 
 TEST(CanCodec, DecodedValuesAreWithinHalfAStepOfWhatWasEncoded) {
   std::mt19937_64 random(20);
-  for_each_signal([&](const Message& message, const Signal& signal) {
+  for_each_signal([&](const Message& message, std::size_t k, const SignalLayout& signal) {
     std::uniform_real_distribution<double> inside(min_physical(signal), max_physical(signal));
     for (int i = 0; i < 2000; ++i) {
-      CanValues values;
-      values.*signal.value = inside(random);
+      MessageValues values = no_values();
+      values[k] = inside(random);
       const auto alive = static_cast<std::uint8_t>(i % kE2eCounterModulo);
-      CanValues back;
-      ASSERT_TRUE(decode(message, encode(message, values, alive), &back));
-      ASSERT_LE(std::abs(back.*signal.value - values.*signal.value), 0.5001 * signal.factor);
+      MessageValues back{};
+      ASSERT_TRUE(decode(message, encode(message, values, {alive, 0, 0}), &back));
+      ASSERT_LE(std::abs(back[k] - values[k]), 0.5001 * signal.factor);
     }
   });
 }
 
 TEST(CanCodec, SignalsDoNotDisturbEachOther) {
-  for (const Message& message : messages()) {
-    for (const Signal& one : message.signals) {
-      if (one.value == nullptr) continue;
-      CanValues values;  // all not available, one at its minimum
-      values.*one.value = min_physical(one);
-      CanValues back;
-      ASSERT_TRUE(decode(message, encode(message, values, 0), &back));
-      for (const Signal& other : message.signals) {
-        if (other.value == nullptr || other.value == one.value || !other.has_sna) continue;
-        EXPECT_TRUE(std::isnan(back.*other.value)) << one.name << " disturbs " << other.name;
-      }
+  for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
+    MessageValues values = no_values();  // all not available, one at its minimum
+    values[i] = min_physical(signal);
+    MessageValues back{};
+    ASSERT_TRUE(decode(message, encode(message, values, {}), &back));
+    for (std::size_t k = 0; k < message.signals.size(); ++k) {
+      const Signal& other = message.signals[k];
+      if (k == i || !has_value(other) || !other.layout.has_sna) continue;
+      EXPECT_TRUE(std::isnan(back[k])) << "disturbs " << other.name;
     }
-  }
+  });
 }
 
-TEST(CanCodec, SignalsOfAMessageShareNoBitAndStayInside) {
-  for (const Message& message : messages()) {
-    std::bitset<8 * kMessageBytes> taken;
-    for (const Signal& signal : message.signals) {
-      ASSERT_GE(signal.start_bit, 0);
-      ASSERT_LE(signal.start_bit + signal.length, static_cast<int>(taken.size())) << signal.name;
-      for (int bit = 0; bit < signal.length; ++bit) {
-        const auto at = static_cast<std::size_t>(signal.start_bit + bit);
-        EXPECT_FALSE(taken.test(at)) << signal.name << " bit " << at;
-        taken.set(at);
-      }
-    }
-  }
+TEST(CanCodec, ATableWhoseSignalsShareABitOrLeaveTheMessageDoesNotFit) {
+  constexpr SignalValue kNone{Framing::kCrc};
+  constexpr const char* kThree[] = {"a", "b", "c"};
+  constexpr const char* kFour[] = {"a", "b", "c", "d"};
+  static_assert(fit_message(
+      std::array<Signal, 2>{{{"A", {0, 8}, "", kNone, ""}, {"B", {8, 8}, "", kNone, ""}}}));
+  static_assert(!fit_message(
+      std::array<Signal, 2>{{{"A", {0, 8}, "", kNone, ""}, {"B", {7, 8}, "", kNone, ""}}}));
+  static_assert(!fit_message(std::array<Signal, 1>{{{"A", {57, 8}, "", kNone, ""}}}));
+  static_assert(!fit_message(std::array<Signal, 1>{{{"A", {0, 33}, "", kNone, ""}}}));
+  // All ones is "not available": two bits name three values.
+  static_assert(fit_message(std::array<Signal, 1>{{{"A", {0, 2}, "", kNone, "", kThree}}}));
+  static_assert(!fit_message(std::array<Signal, 1>{{{"A", {0, 2}, "", kNone, "", kFour}}}));
 }
 
 TEST(CanCodec, ZeroIsExactForEverySignalThatHasIt) {
-  for_each_signal([](const Message& /*message*/, const Signal& signal) {
+  for_each_signal([](const Message& /*message*/, std::size_t /*i*/, const SignalLayout& signal) {
     if (min_physical(signal) > 0.0) return;
     EXPECT_NEAR(to_physical(signal, to_raw(signal, 0.0)), 0.0, 1e-9 * signal.factor);
   });
 }
 
 TEST(CanCodec, AFrameOfAnotherIdSizeOrKindIsRefused) {
-  const Message& message = messages()[0];
-  const CanFrame good = encode(message, CanValues{}, 0);
-  CanValues values;
+  const Message& message = default_messages()[0];
+  const CanFrame good = encode(message, no_values(), {});
+  MessageValues values = no_values();
   ASSERT_TRUE(decode(message, good, &values));
 
   CanFrame bad = good;
-  bad.id = messages()[1].id;
+  bad.id = default_messages()[1].address.id;
   EXPECT_FALSE(decode(message, bad, &values));
   bad = good;
   bad.size = 7;
@@ -158,16 +167,16 @@ TEST(CanCodec, AFrameOfAnotherIdSizeOrKindIsRefused) {
 }
 
 TEST(CanCodec, ACorruptFrameLeavesTheValuesAlone) {
-  CanFrame frame = encode(messages()[0], CanValues{}, 0);
+  CanFrame frame = encode(default_messages()[0], no_values(), {});
   frame.data[5] ^= 0x10U;
-  CanValues values;
-  values.speed_m_s = 12.0;
-  EXPECT_FALSE(decode(messages()[0], frame, &values));
-  EXPECT_EQ(values.speed_m_s, 12.0);
+  MessageValues values = no_values();
+  values[5] = 12.0;
+  EXPECT_FALSE(decode(default_messages()[0], frame, &values));
+  EXPECT_EQ(values[5], 12.0);
 }
 
 TEST(CanCodec, IntelSignalsFillBytesFromTheLeastSignificantBit) {
-  const Signal signal{"Intel", 12, 12, 1.0, 0.0, nullptr};
+  const SignalLayout signal{12, 12};
   std::array<std::uint8_t, 8> data{};
   insert_raw(signal, 0xABC, data);
   EXPECT_EQ(data, (std::array<std::uint8_t, 8>{0x00, 0xC0, 0xAB}));
@@ -176,7 +185,7 @@ TEST(CanCodec, IntelSignalsFillBytesFromTheLeastSignificantBit) {
 
 TEST(CanCodec, MotorolaSignalsFillBytesFromTheMostSignificantBit) {
   // A DBC's "3|12@0": bits 3..0 of byte 0, then all of byte 1.
-  const Signal signal{"Motorola", 3, 12, 1.0, 0.0, nullptr, true, ByteOrder::kMotorola};
+  const SignalLayout signal{3, 12, 1.0, 0.0, true, ByteOrder::kMotorola};
   std::array<std::uint8_t, 8> data{};
   insert_raw(signal, 0xABC, data);
   EXPECT_EQ(data, (std::array<std::uint8_t, 8>{0x0A, 0xBC}));
@@ -184,7 +193,7 @@ TEST(CanCodec, MotorolaSignalsFillBytesFromTheMostSignificantBit) {
 }
 
 TEST(CanCodec, InsertingClearsWhatWasThere) {
-  const Signal signal{"Intel", 4, 8, 1.0, 0.0, nullptr};
+  const SignalLayout signal{4, 8};
   std::array<std::uint8_t, 8> data{};
   data.fill(0xFF);
   insert_raw(signal, 0, data);

@@ -1,4 +1,4 @@
-// The mount's status: when it reaches the bus, when it is not available, and what of MOUNT is believed.
+// When the mount's status reaches the bus, when it is not available, which MOUNT is refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,12 +28,8 @@ mount_t make_mount(std::int8_t status) {
 
 class GateMount : public GateFixture {
  protected:
-  void hear(std::int8_t status) {
-    CanMount mount;
-    ASSERT_TRUE(from_wire(make_mount(status), &mount));
-    gate_.on_mount(mount, now_us_);
-  }
-  std::vector<CanValues> sent() { return sink_.all("PLB_Mount"); }
+  void hear(std::int8_t status) { gate_.on_mount(sample_of(make_mount(status)), now_us_); }
+  std::vector<Reading> sent() { return sink_.all("Mount"); }
 };
 
 TEST_F(GateMount, IsNotAvailableWhileMountNeverCame) {
@@ -42,9 +38,10 @@ TEST_F(GateMount, IsNotAvailableWhileMountNeverCame) {
     tick();
   }
   ASSERT_EQ(sent().size(), 3U) << "once a second";
-  for (const CanValues& v : sent()) {
-    for (const double value : {v.mount_status, v.mount_reason, v.mount_progress, v.mount_pitch_rad,
-                               v.mount_roll_rad, v.mount_yaw_rad}) {
+  for (const Reading& v : sent()) {
+    for (const double value :
+         {v["Mount_Status"], v["Mount_Reason"], v["Mount_Progress"], v["Mount_PitchChange"],
+          v["Mount_RollChange"], v["Mount_YawChange"]}) {
       EXPECT_TRUE(std::isnan(value));
     }
   }
@@ -56,13 +53,13 @@ TEST_F(GateMount, IsSentAtTheNextTickAndThenByItsCycle) {
   hear(mount_t::STATUS_MOVED);
   tick();
   ASSERT_EQ(sent().size(), 1U);
-  const CanValues v = sent().back();
-  EXPECT_EQ(v.mount_status, static_cast<double>(CanMountStatus::kMoved));
-  EXPECT_EQ(v.mount_reason, static_cast<double>(mount_t::REASON_TURNING));
-  EXPECT_NEAR(v.mount_progress, 1.0, 0.0025);
-  EXPECT_NEAR(v.mount_pitch_rad, 0.02, 0.0001);
-  EXPECT_NEAR(v.mount_roll_rad, 0.04, 0.0001);
-  EXPECT_NEAR(v.mount_yaw_rad, 0.06, 0.0001);
+  const Reading v = sent().back();
+  EXPECT_EQ(v["Mount_Status"], mount_t::STATUS_MOVED);
+  EXPECT_EQ(v["Mount_Reason"], static_cast<double>(mount_t::REASON_TURNING));
+  EXPECT_NEAR(v["Mount_Progress"], 1.0, 0.0025);
+  EXPECT_NEAR(v["Mount_PitchChange"], 0.02, 0.0001);
+  EXPECT_NEAR(v["Mount_RollChange"], 0.04, 0.0001);
+  EXPECT_NEAR(v["Mount_YawChange"], 0.06, 0.0001);
   tick(99);
   EXPECT_EQ(sent().size(), 1U);
   tick();
@@ -73,9 +70,9 @@ TEST_F(GateMount, WithoutAReferenceThereIsProgressButNoChange) {
   for (const std::int8_t status : {mount_t::STATUS_COLLECTING, mount_t::STATUS_UNSTEADY}) {
     hear(status);
     tick();
-    EXPECT_EQ(sent().back().mount_status, static_cast<double>(status));
-    EXPECT_NEAR(sent().back().mount_progress, 0.35, 0.0025);
-    EXPECT_TRUE(std::isnan(sent().back().mount_yaw_rad));
+    EXPECT_EQ(sent().back()["Mount_Status"], static_cast<double>(status));
+    EXPECT_NEAR(sent().back()["Mount_Progress"], 0.35, 0.0025);
+    EXPECT_TRUE(std::isnan(sent().back()["Mount_YawChange"]));
   }
 }
 
@@ -87,24 +84,24 @@ TEST_F(GateMount, StaleIsNotAvailableWithinOneCycle) {
     sink_.sent.clear();
     give(i);  // images go on: the mount has an age of its own
     tick();
-    const std::vector<CanValues> now = sent();
+    const std::vector<Reading> now = sent();
     if (now.empty()) continue;
     const std::int64_t age_us = sink_.sent.back().time_us - heard_us;
-    EXPECT_EQ(std::isnan(now.back().mount_status), age_us > kStaleUs) << age_us;
-    if (absent_us == 0 && std::isnan(now.back().mount_status)) absent_us = age_us;
+    EXPECT_EQ(std::isnan(now.back()["Mount_Status"]), age_us > kStaleUs) << age_us;
+    if (absent_us == 0 && std::isnan(now.back()["Mount_Status"])) absent_us = age_us;
   }
   EXPECT_GT(absent_us, kStaleUs);
   EXPECT_LE(absent_us, kStaleUs + 1'000'000);
   hear(mount_t::STATUS_STEADY);
   tick();
-  EXPECT_EQ(sink_.newest().mount_status, static_cast<double>(CanMountStatus::kSteady));
+  EXPECT_EQ(sink_.newest()["Mount_Status"], mount_t::STATUS_STEADY);
 }
 
 TEST_F(GateMount, DoesNotNeedImages) {
   hear(mount_t::STATUS_STEADY);
   tick(200);
-  EXPECT_TRUE(std::isnan(sink_.newest().ego_validity));
-  EXPECT_EQ(sink_.newest().mount_status, static_cast<double>(CanMountStatus::kSteady));
+  EXPECT_TRUE(std::isnan(sink_.newest()["EgoMotion_Validity"]));
+  EXPECT_EQ(sink_.newest()["Mount_Status"], mount_t::STATUS_STEADY);
 }
 
 TEST_F(GateMount, TwoBetweenTicksAreBothSentInOrder) {
@@ -114,15 +111,15 @@ TEST_F(GateMount, TwoBetweenTicksAreBothSentInOrder) {
   tick(2);
   EXPECT_TRUE(gate_.idle());
   ASSERT_EQ(sent().size(), 2U);
-  EXPECT_EQ(sent()[0].mount_status, static_cast<double>(CanMountStatus::kSteady));
-  EXPECT_EQ(sent()[1].mount_status, static_cast<double>(CanMountStatus::kMoved));
+  EXPECT_EQ(sent()[0]["Mount_Status"], mount_t::STATUS_STEADY);
+  EXPECT_EQ(sent()[1]["Mount_Status"], mount_t::STATUS_MOVED);
 }
 
 TEST_F(GateMount, OfTooManyTheNewestAreSent) {
   for (int i = 0; i < 10; ++i) hear(mount_t::STATUS_STEADY);
   hear(mount_t::STATUS_MOVED);
   tick(20);
-  EXPECT_EQ(sink_.newest().mount_status, static_cast<double>(CanMountStatus::kMoved));
+  EXPECT_EQ(sink_.newest()["Mount_Status"], mount_t::STATUS_MOVED);
   EXPECT_EQ(sent().size(), CanGate::kMaxPendingMounts);
 }
 
@@ -131,15 +128,15 @@ TEST_F(GateMount, AClockThatRunsBackwardsMakesItNotAvailable) {
   tick();
   now_us_ = -5;
   tick(100);
-  EXPECT_TRUE(std::isnan(sent().back().mount_status));
+  EXPECT_TRUE(std::isnan(sent().back()["Mount_Status"]));
 }
 
 TEST(CanMountWire, RefusesABrokenMessage) {
-  CanMount mount;
+  CanSample mount;
   const auto refused = [&mount](std::int8_t status, auto spoil) {
     mount_t message = make_mount(status);
     spoil(message);
-    return !from_wire(message, &mount);
+    return from_wire(message, default_messages(), &mount) != nullptr;
   };
   const auto nothing = [](mount_t&) {};
   for (std::int8_t status = 0; status < 4; ++status) EXPECT_FALSE(refused(status, nothing));
@@ -161,28 +158,32 @@ TEST(CanMountWire, RefusesABrokenMessage) {
 TEST(CanMountWire, AReferenceOfAnEarlierRunIsSteadyBeforeTheFirstStretch) {
   mount_t message = make_mount(mount_t::STATUS_STEADY);
   for (double& angle_rad : message.recent_rad) angle_rad = kNan;
-  CanMount mount;
-  ASSERT_TRUE(from_wire(message, &mount));
-  EXPECT_EQ(mount.status, CanMountStatus::kSteady);
-  EXPECT_TRUE(std::isnan(mount.yaw_rad));
+  CanSample mount;
+  ASSERT_EQ(from_wire(message, default_messages(), &mount), nullptr);
+  CanGate gate{CanConfig{}, default_messages()};
+  RecordingSink sink;
+  gate.on_mount(mount, 0);
+  gate.tick(0, sink);
+  EXPECT_EQ(sink.newest()["Mount_Status"], mount_t::STATUS_STEADY);
+  EXPECT_TRUE(std::isnan(sink.newest()["Mount_YawChange"]));
 }
 
 TEST(CanMountWire, ARejectedMessageIsCountedAndNotSent) {
   CanOutput output{CanConfig{}};
   RecordingSink sink;
-  EXPECT_FALSE(output.on_mount(make_mount(9), 0));
+  EXPECT_STREQ(output.on_mount(make_mount(9), 0), "unknown status");
   EXPECT_EQ(output.num_rejected(), 1);
   output.tick(0, sink);
-  EXPECT_TRUE(std::isnan(sink.newest().mount_status));
+  EXPECT_TRUE(std::isnan(sink.newest()["Mount_Status"]));
 }
 
 TEST(CanMountWire, FinishSendsTheLastOne) {
   CanOutput output{CanConfig{}};
   RecordingSink sink;
   output.advance(1'000'000, sink);
-  EXPECT_TRUE(output.on_mount(make_mount(mount_t::STATUS_MOVED), 1'000'000));
+  EXPECT_EQ(output.on_mount(make_mount(mount_t::STATUS_MOVED), 1'000'000), nullptr);
   output.finish(sink);
-  EXPECT_EQ(sink.newest().mount_status, static_cast<double>(CanMountStatus::kMoved));
+  EXPECT_EQ(sink.newest()["Mount_Status"], mount_t::STATUS_MOVED);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
     mount.status = static_cast<std::int8_t>(i / 10 % 5);  // 4 is rejected
     output.on_mount(mount, i * 20'000);
     objects.seq = i;
-    EXPECT_TRUE(output.on_objects(objects, i * 20'000));
+    EXPECT_EQ(output.on_objects(objects, i * 20'000), nullptr);
   }
   output.finish(sink);
   EXPECT_EQ(test::g_num_mallocs, before);

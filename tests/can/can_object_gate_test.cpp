@@ -10,6 +10,7 @@
 #include "modules/can/can_gate.hpp"
 #include "modules/can/can_wire.hpp"
 #include "plumb/detection_t.hpp"
+#include "tests/can/reading.hpp"
 
 namespace plumb {
 namespace {
@@ -50,7 +51,7 @@ class ObjectGate : public testing::Test {
  protected:
   void give(const objects_t& message) {
     CanObjects objects;
-    ASSERT_TRUE(from_wire(message, &objects));
+    ASSERT_EQ(from_wire(message, test::default_messages(), &objects), nullptr);
     gate_.on_objects(objects, now_us_);
   }
   /// What the next tick sends.
@@ -60,15 +61,15 @@ class ObjectGate : public testing::Test {
     now_us_ += CanGate::kTickUs;
     return sink_.frames;
   }
-  static CanValues read(const CanFrame& frame) {
-    CanValues values;
-    for (const Message& message : object_messages()) {
-      if (message.id != frame.id) continue;
-      EXPECT_TRUE(decode(message, frame, &values)) << frame.id;
+  static test::Reading read(const CanFrame& frame) {
+    test::Reading values;
+    for (const Message& message : test::default_messages()) {
+      if (message.address.id != frame.id) continue;
+      EXPECT_TRUE(values.read(message, frame)) << frame.id;
     }
     return values;
   }
-  CanObjectGate gate_{CanConfig{}};
+  CanObjectGate gate_{CanConfig{}, test::default_messages()};
   Recorder sink_;
   std::int64_t now_us_ = 1'000'000;
 };
@@ -84,42 +85,42 @@ TEST_F(ObjectGate, SendsAListAndItsObjectsInOneBurst) {
   const std::uint32_t ids[] = {0x3B0, 0x3B1, 0x3B2, 0x3B3, 0x3B1, 0x3B2, 0x3B3};
   for (std::size_t i = 0; i < burst.size(); ++i) {
     EXPECT_EQ(burst[i].id, ids[i]);
-    EXPECT_EQ(read(burst[i]).object_frame_counter, 300 & 0xFF);
+    EXPECT_EQ(read(burst[i]).frame_counter(), 300 & 0xFF);
   }
-  EXPECT_EQ(read(burst[0]).num_objects, 2.0);
-  EXPECT_EQ(read(burst[0]).num_objects_left_out, 1.0);
-  const CanValues near = read(burst[1]);  // nearest first
-  EXPECT_EQ(near.object_index, 0.0);
-  EXPECT_NEAR(near.object_x_m, 8.0, 0.026);
-  EXPECT_NEAR(near.object_y_m, 2.0, 0.026);
-  EXPECT_NEAR(near.object_x_std_m, 0.5, 0.026);
-  EXPECT_NEAR(near.object_y_std_m, 0.2, 0.011);
-  const CanValues motion = read(burst[2]);
-  EXPECT_NEAR(motion.object_vx_m_s, -12.0, 0.026);
-  EXPECT_NEAR(motion.object_vy_m_s, 0.5, 0.011);
-  EXPECT_NEAR(motion.object_vx_std_m_s, 1.0, 0.026);
-  const CanValues state = read(burst[3]);
-  EXPECT_EQ(state.object_id, 300 % 255);
-  EXPECT_EQ(state.object_class, 1.0);
-  EXPECT_EQ(state.object_status, 0.0);
-  EXPECT_NEAR(state.object_age_s, 1.2, 0.051);
-  EXPECT_NEAR(state.object_ttc_s, 2.5, 0.026);
-  EXPECT_NEAR(state.object_width_m, 1.7, 0.026);
-  EXPECT_EQ(read(burst[4]).object_index, 1.0);
-  EXPECT_NEAR(read(burst[4]).object_x_m, 20.0, 0.026);
+  EXPECT_EQ(read(burst[0])["ObjList_Count"], 2.0);
+  EXPECT_EQ(read(burst[0])["ObjList_NumLeftOut"], 1.0);
+  const test::Reading near = read(burst[1]);  // nearest first
+  EXPECT_EQ(near["ObjPos_Index"], 0.0);
+  EXPECT_NEAR(near["Obj#_PosX"], 8.0, 0.026);
+  EXPECT_NEAR(near["Obj#_PosY"], 2.0, 0.026);
+  EXPECT_NEAR(near["Obj#_PosXStd"], 0.5, 0.026);
+  EXPECT_NEAR(near["Obj#_PosYStd"], 0.2, 0.011);
+  const test::Reading motion = read(burst[2]);
+  EXPECT_NEAR(motion["Obj#_VelX"], -12.0, 0.026);
+  EXPECT_NEAR(motion["Obj#_VelY"], 0.5, 0.011);
+  EXPECT_NEAR(motion["Obj#_VelXStd"], 1.0, 0.026);
+  const test::Reading state = read(burst[3]);
+  EXPECT_EQ(state["Obj#_Id"], 300 % 255);
+  EXPECT_EQ(state["Obj#_Class"], 1.0);
+  EXPECT_EQ(state["Obj#_Status"], 0.0);
+  EXPECT_NEAR(state["Obj#_Age"], 1.2, 0.051);
+  EXPECT_NEAR(state["Obj#_TimeToCollision"], 2.5, 0.026);
+  EXPECT_NEAR(state["Obj#_Width"], 1.7, 0.026);
+  EXPECT_EQ(read(burst[4])["ObjPos_Index"], 1.0);
+  EXPECT_NEAR(read(burst[4])["Obj#_PosX"], 20.0, 0.026);
 }
 
 TEST_F(ObjectGate, SendsEachListOnceAndThenOnlyThatNothingIsNew) {
   give(list_of(1, {object_at(10.0, 0.0)}));
   give(list_of(2, {object_at(11.0, 0.0)}));
-  EXPECT_EQ(read(tick()[1]).object_frame_counter, 1.0);
-  EXPECT_EQ(read(tick()[1]).object_frame_counter, 2.0);
+  EXPECT_EQ(read(tick()[1]).frame_counter(), 1.0);
+  EXPECT_EQ(read(tick()[1]).frame_counter(), 2.0);
   int num_lists = 0;
   for (int i = 0; i < 20; ++i) {  // 0.2 s
     for (const CanFrame& frame : tick()) {
       EXPECT_EQ(frame.id, 0x3B0U);
-      EXPECT_EQ(read(frame).num_objects, 1.0);
-      EXPECT_EQ(read(frame).object_frame_counter, 2.0);
+      EXPECT_EQ(read(frame)["ObjList_Count"], 1.0);
+      EXPECT_EQ(read(frame).frame_counter(), 2.0);
       ++num_lists;
     }
   }
@@ -134,7 +135,7 @@ TEST_F(ObjectGate, SaysNotAvailableWithinOneCycleOfGoingStale) {
   while (first_us == 0 && now_us_ < stale_us + 1'000'000) {
     const std::int64_t at_us = now_us_;
     for (const CanFrame& frame : tick())
-      if (std::isnan(read(frame).num_objects)) first_us = at_us;
+      if (std::isnan(read(frame)["ObjList_Count"])) first_us = at_us;
   }
   EXPECT_GT(first_us, stale_us);
   EXPECT_LE(first_us, stale_us + 100'000);
@@ -144,13 +145,13 @@ TEST_F(ObjectGate, AnEmptyListIsAList) {
   give(list_of(4, {}));
   const auto burst = tick();
   ASSERT_EQ(burst.size(), 1U);
-  EXPECT_EQ(read(burst[0]).num_objects, 0.0);
+  EXPECT_EQ(read(burst[0])["ObjList_Count"], 0.0);
 }
 
 TEST_F(ObjectGate, DropsTheOldestListsWhenTheyComeFasterThanTheyLeave) {
   for (int seq = 0; seq < 20; ++seq) give(list_of(seq, {}));
   EXPECT_EQ(gate_.num_overflowed(), 4);
-  EXPECT_EQ(read(tick()[0]).object_frame_counter, 4.0);
+  EXPECT_EQ(read(tick()[0]).frame_counter(), 4.0);
 }
 
 TEST_F(ObjectGate, ValuesSaturateAndWhatIsNotKnownIsNotAvailable) {
@@ -161,13 +162,13 @@ TEST_F(ObjectGate, ValuesSaturateAndWhatIsNotKnownIsNotAvailable) {
   far.position_cov_m2[0][0] = 1e6;
   give(list_of(1, {far}));
   const auto burst = tick();
-  EXPECT_NEAR(read(burst[1]).object_x_m, 200.7, 1e-6);
-  EXPECT_NEAR(read(burst[1]).object_y_m, -102.4, 1e-6);
-  EXPECT_NEAR(read(burst[1]).object_x_std_m, 12.7, 1e-6);
-  EXPECT_TRUE(std::isnan(read(burst[2]).object_vx_m_s));
-  EXPECT_TRUE(std::isnan(read(burst[2]).object_vy_m_s));
-  EXPECT_TRUE(std::isnan(read(burst[3]).object_ttc_s));
-  EXPECT_NEAR(read(burst[3]).object_age_s, 51.0, 1e-6);
+  EXPECT_NEAR(read(burst[1])["Obj#_PosX"], 200.7, 1e-6);
+  EXPECT_NEAR(read(burst[1])["Obj#_PosY"], -102.4, 1e-6);
+  EXPECT_NEAR(read(burst[1])["Obj#_PosXStd"], 12.7, 1e-6);
+  EXPECT_TRUE(std::isnan(read(burst[2])["Obj#_VelX"]));
+  EXPECT_TRUE(std::isnan(read(burst[2])["Obj#_VelY"]));
+  EXPECT_TRUE(std::isnan(read(burst[3])["Obj#_TimeToCollision"]));
+  EXPECT_NEAR(read(burst[3])["Obj#_Age"], 51.0, 1e-6);
 }
 
 TEST(CanObjectsWire, KeepsTheNearestAndCountsTheRest) {
@@ -176,13 +177,14 @@ TEST(CanObjectsWire, KeepsTheNearestAndCountsTheRest) {
   objects[3].status = object_t::STATUS_NOT_LOCALISED;
   objects[3].position_ground_m[0] = kNan;  // nothing else of it holds
   CanObjects list;
-  ASSERT_TRUE(from_wire(list_of(9, objects, 2), &list));
-  ASSERT_EQ(list.num_objects, kMaxCanObjects);
-  EXPECT_EQ(list.num_left_out, 20 - 8 + 2);
+  ASSERT_EQ(from_wire(list_of(9, objects, 2), test::default_messages(), &list), nullptr);
+  ASSERT_EQ(list.counts.num_objects, kMaxCanObjects);
+  EXPECT_EQ(list.counts.num_left_out, 20 - 8 + 2);
   double last = 0.0;
-  for (const CanObject& object : list.objects) {
-    EXPECT_GE(object.x_m, last);
-    last = object.x_m;
+  for (const SourceValues& object : list.objects) {
+    const double x_m = object[0];  // of the position's signals the first
+    EXPECT_GE(x_m, last);
+    last = x_m;
   }
   EXPECT_LE(last, 13.0);
 }
@@ -192,7 +194,7 @@ TEST(CanObjectsWire, RefusesABrokenMessage) {
   const auto refused = [&list](void (*spoil)(objects_t*)) {
     objects_t message = list_of(1, {object_at(5.0, 0.0), object_at(6.0, 0.0)});
     spoil(&message);
-    return !from_wire(message, &list);
+    return from_wire(message, test::default_messages(), &list) != nullptr;
   };
   EXPECT_FALSE(refused([](objects_t*) {}));
   EXPECT_TRUE(refused([](objects_t* m) { m->seq = -1; }));

@@ -8,12 +8,12 @@
 #include <memory>
 #include <thread>
 
-#include "modules/can/can_codec.hpp"
 #include "platform/bus.hpp"
 #include "platform/can_trace.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/process_health_t.hpp"
+#include "tests/can/reading.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/private_network.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -47,6 +47,16 @@ TEST(CanProgram, RefusesWhatItCannotUseWithOneSentence) {
   const test::TempFile config(".toml", "can.stale_s = 0\n");
   expect_refused({"plumb-can", "--trace", "/dev/null", "--config", config.path()},
                  config.path() + ":1: can.stale_s = 0 is outside [0.05, 5]");
+  const test::TempFile clash(".toml", "[can.mount]\nid = 928\n");
+  expect_refused({"plumb-can", "--trace", "/dev/null", "--config", clash.path()},
+                 "can.ego_motion.id and can.mount.id are both 928");
+}
+
+TEST(CanProgram, PrintsTheDatabaseOfItsConfiguration) {
+  const test::TempFile config(".toml", "[can]\nnode = \"PLB2\"\nbase_id = 0x3C0\n");
+  ChildProcess can({"plumb-can", "--config", config.path(), "--print-dbc"});
+  EXPECT_EQ(can.wait(), 0);
+  EXPECT_NE(can.output().find("BO_ 960 PLB2_EgoMotion: 8 PLB2\n"), std::string::npos);
 }
 
 /// One live plumb-can in a network of this test's own.
@@ -61,13 +71,13 @@ class CanProgramLive : public ::testing::Test {
     if (!is_private) GTEST_SKIP() << test::kNoPrivateNetwork;
     bus_ = std::make_unique<Bus>(kUrl, &counters_);
   }
-  static std::vector<CanValues> read(const std::string& path, const Message& message) {
+  static std::vector<test::Reading> read(const std::string& path, const Message& message) {
     CanTraceReader reader(path);
-    std::vector<CanValues> list;
+    std::vector<test::Reading> list;
     std::int64_t time_us = 0;
     for (CanFrame frame; reader.next(&time_us, &frame);) {
-      CanValues values;
-      if (decode(message, frame, &values)) list.push_back(values);
+      test::Reading values;
+      if (values.read(message, frame)) list.push_back(values);
     }
     EXPECT_EQ(reader.error(), "");
     return list;
@@ -104,16 +114,17 @@ TEST_F(CanProgramLive, SendsWhatItHearsThenNotAvailableAndStopsCleanly) {
   EXPECT_EQ(can.wait(), 0) << can.output();
 
   std::vector<double> speeds;  // of successive camera frames
-  const std::vector<CanValues> motions = read(trace.path(), messages()[0]);
-  for (const CanValues& v : motions) {
-    if (std::isnan(v.ego_validity)) continue;
-    if (speeds.empty() || speeds.back() != v.speed_m_s) speeds.push_back(v.speed_m_s);
+  const std::vector<test::Reading> motions = read(trace.path(), test::default_messages()[0]);
+  for (const test::Reading& v : motions) {
+    if (std::isnan(v["EgoMotion_Validity"])) continue;
+    if (speeds.empty() || speeds.back() != v["EgoMotion_Speed"])
+      speeds.push_back(v["EgoMotion_Speed"]);
   }
   ASSERT_EQ(speeds.size(), 20U);
   for (std::size_t i = 0; i < speeds.size(); ++i) EXPECT_EQ(speeds[i], static_cast<double>(i));
-  EXPECT_TRUE(std::isnan(motions.back().ego_validity)) << "stale at the end";
-  ASSERT_FALSE(read(trace.path(), messages()[7]).empty());
-  EXPECT_EQ(read(trace.path(), messages()[7]).back().num_rejected, 2.0);
+  EXPECT_TRUE(std::isnan(motions.back()["EgoMotion_Validity"])) << "stale at the end";
+  ASSERT_FALSE(read(trace.path(), test::default_messages()[7]).empty());
+  EXPECT_EQ(read(trace.path(), test::default_messages()[7]).back()["Status_NumRejected"], 2.0);
 }
 
 TEST_F(CanProgramLive, GoesOnWithTheTraceWhenThereIsNoSuchInterface) {
@@ -124,7 +135,7 @@ TEST_F(CanProgramLive, GoesOnWithTheTraceWhenThereIsNoSuchInterface) {
   can.signal(SIGINT);
   EXPECT_EQ(can.wait(), 0);
   EXPECT_EQ(can.output().rfind("plumb-can: nocan7: ", 0), 0U) << can.output();
-  EXPECT_GT(read(trace.path(), messages()[0]).size(), 10U);
+  EXPECT_GT(read(trace.path(), test::default_messages()[0]).size(), 10U);
 }
 
 TEST_F(CanProgramLive, StopsWithAReasonWhenTheDiskIsFullAndThereIsNoBus) {

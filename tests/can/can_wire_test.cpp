@@ -10,6 +10,8 @@
 namespace plumb {
 namespace {
 
+using namespace test;  // NOLINT: the sink and the default messages
+
 ego_motion_t make_ego(std::int64_t seq = 3) {
   ego_motion_t m{};
   m.utime = 1'000'000 + seq * 100'000;
@@ -52,37 +54,37 @@ ground_plane_t make_plane(std::int64_t seq = 3) {
 }
 
 TEST(CanWire, EgoMotionBecomesIso8855) {
-  CanEgo ego;
-  ASSERT_TRUE(from_wire(make_ego(), &ego));
+  CanSample ego;
+  ASSERT_EQ(from_wire(make_ego(), default_messages(), &ego), nullptr);
   EXPECT_EQ(ego.seq, 3);
-  EXPECT_EQ(ego.status, CanEgoStatus::kOk);
-  EXPECT_EQ(ego.reason, 2);
-  EXPECT_EQ(ego.reset_counter, 1);
-  EXPECT_EQ(ego.speed_m_s, 10.0);
-  EXPECT_EQ(ego.lateral_speed_m_s, 0.5);
-  EXPECT_EQ(ego.speed_std_m_s, 0.1);
-  EXPECT_EQ(ego.yaw_rate_rad_s, 0.2);
-  EXPECT_EQ(ego.yaw_rate_std_rad_s, 0.01);
-  EXPECT_EQ(ego.accel_m_s2, 1.0);
-  EXPECT_EQ(ego.accel_std_m_s2, 0.3);
-  EXPECT_EQ(ego.x_m, 40.0);
-  EXPECT_EQ(ego.y_m, 3.0);
-  EXPECT_EQ(ego.z_m, 0.5);
-  EXPECT_EQ(ego.heading_rad, 0.0);
-  EXPECT_EQ(ego.distance_m, 41.0);
-  EXPECT_EQ(ego.scale_std_ratio, 0.02);
+  EXPECT_EQ(value_of(ego, "EgoDetail_Status"), ego_motion_t::STATUS_OK);
+  EXPECT_EQ(value_of(ego, "Status_EgoReason"), 2);
+  EXPECT_EQ(value_of(ego, "OdomDist_ResetCtr"), 1);
+  EXPECT_EQ(value_of(ego, "EgoMotion_Speed"), 10.0);
+  EXPECT_EQ(value_of(ego, "EgoDetail_SpeedY"), 0.5);
+  EXPECT_EQ(value_of(ego, "EgoMotion_SpeedStd"), 0.1);
+  EXPECT_EQ(value_of(ego, "EgoMotion_YawRate"), 0.2);
+  EXPECT_EQ(value_of(ego, "EgoDetail_YawRateStd"), 0.01);
+  EXPECT_EQ(value_of(ego, "EgoDetail_AccelX"), 1.0);
+  EXPECT_EQ(value_of(ego, "EgoDetail_AccelXStd"), 0.3);
+  EXPECT_EQ(value_of(ego, "OdomX_PosX"), 40.0);
+  EXPECT_EQ(value_of(ego, "OdomY_PosY"), 3.0);
+  EXPECT_EQ(value_of(ego, "OdomY_PosZ"), 0.5);
+  EXPECT_EQ(value_of(ego, "OdomX_Heading"), 0.0);
+  EXPECT_EQ(value_of(ego, "OdomDist_Distance"), 41.0);
+  EXPECT_EQ(value_of(ego, "OdomDist_ScaleStd"), 0.02);
 }
 
 TEST(CanWire, ACarThatHasNotMovedYetStandsStillAtNoKnownScale) {
   ego_motion_t m = make_ego();
   m.log_scale_std = kNan;
-  CanEgo ego;
-  EXPECT_FALSE(from_wire(m, &ego)) << "moving, it has one";
+  CanSample ego;
+  EXPECT_NE(from_wire(m, default_messages(), &ego), nullptr) << "moving, it has one";
   m.status = ego_motion_t::STATUS_STANDSTILL;
-  ASSERT_TRUE(from_wire(m, &ego));
-  EXPECT_TRUE(std::isnan(ego.scale_std_ratio));
+  ASSERT_EQ(from_wire(m, default_messages(), &ego), nullptr);
+  EXPECT_TRUE(std::isnan(value_of(ego, "OdomDist_ScaleStd")));
   m.log_scale_std = -1.0;
-  EXPECT_FALSE(from_wire(m, &ego));
+  EXPECT_NE(from_wire(m, default_messages(), &ego), nullptr);
 }
 
 TEST(CanWire, HeadingIsPositiveAfterALeftTurn) {
@@ -91,9 +93,9 @@ TEST(CanWire, HeadingIsPositiveAfterALeftTurn) {
     ego_motion_t m = make_ego();
     m.q_world_cam[0] = std::cos(-left_rad / 2);
     m.q_world_cam[2] = std::sin(-left_rad / 2);
-    CanEgo ego;
-    ASSERT_TRUE(from_wire(m, &ego));
-    EXPECT_NEAR(ego.heading_rad, left_rad, 1e-12);
+    CanSample ego;
+    ASSERT_EQ(from_wire(m, default_messages(), &ego), nullptr);
+    EXPECT_NEAR(value_of(ego, "OdomX_Heading"), left_rad, 1e-12);
   }
 }
 
@@ -101,24 +103,24 @@ TEST(CanWire, HeadingIgnoresPitchOfTheCamera) {
   ego_motion_t m = make_ego();
   m.q_world_cam[0] = std::cos(0.1);
   m.q_world_cam[1] = std::sin(0.1);  // nose up
-  CanEgo ego;
-  ASSERT_TRUE(from_wire(m, &ego));
-  EXPECT_NEAR(ego.heading_rad, 0.0, 1e-12);
+  CanSample ego;
+  ASSERT_EQ(from_wire(m, default_messages(), &ego), nullptr);
+  EXPECT_NEAR(value_of(ego, "OdomX_Heading"), 0.0, 1e-12);
 }
 
 TEST(CanWire, GroundPlaneKeepsItsSignsAndGivesDeviations) {
-  CanPlane plane;
-  ASSERT_TRUE(from_wire(make_plane(), &plane));
+  CanSample plane;
+  ASSERT_EQ(from_wire(make_plane(), default_messages(), &plane), nullptr);
   EXPECT_EQ(plane.seq, 3);
-  EXPECT_EQ(plane.status, CanPlaneStatus::kOk);
-  EXPECT_EQ(plane.reason, 1);
-  EXPECT_EQ(plane.pitch_rad, 0.01);
-  EXPECT_EQ(plane.roll_rad, -0.02);
-  EXPECT_EQ(plane.height_m, 1.6);
-  EXPECT_NEAR(plane.pitch_std_rad, 1e-3, 1e-12);
-  EXPECT_NEAR(plane.roll_std_rad, 2e-3, 1e-12);
-  EXPECT_NEAR(plane.height_std_m, 1.6 * 1e-2, 1e-12);
-  EXPECT_EQ(plane.cues_used, 1 + 4);
+  EXPECT_EQ(value_of(plane, "GroundDetail_Status"), ground_plane_t::STATUS_OK);
+  EXPECT_EQ(value_of(plane, "GroundDetail_Reason"), 1);
+  EXPECT_EQ(value_of(plane, "GroundPlane_Pitch"), 0.01);
+  EXPECT_EQ(value_of(plane, "GroundPlane_Roll"), -0.02);
+  EXPECT_EQ(value_of(plane, "GroundPlane_Height"), 1.6);
+  EXPECT_NEAR(value_of(plane, "GroundDetail_PitchStd"), 1e-3, 1e-12);
+  EXPECT_NEAR(value_of(plane, "GroundDetail_RollStd"), 2e-3, 1e-12);
+  EXPECT_NEAR(value_of(plane, "GroundDetail_HeightStd"), 1.6 * 1e-2, 1e-12);
+  EXPECT_EQ(value_of(plane, "GroundDetail_CuesUsed"), 1 + 4);
 }
 
 TEST(CanWire, EveryValueThatMustHoldIsChecked) {
@@ -126,8 +128,8 @@ TEST(CanWire, EveryValueThatMustHoldIsChecked) {
     for (const double bad : {kNan, kInf, -kInf}) {
       ego_motion_t m = make_ego();
       change(m, bad);
-      CanEgo ego;
-      EXPECT_FALSE(from_wire(m, &ego)) << bad;
+      CanSample ego;
+      EXPECT_NE(from_wire(m, default_messages(), &ego), nullptr) << bad;
     }
   };
   for (int i = 0; i < 3; ++i) {
@@ -147,8 +149,8 @@ TEST(CanWire, EveryValueThatMustHoldIsChecked) {
     for (const double bad : {kNan, kInf, -kInf}) {
       ground_plane_t m = make_plane();
       change(m, bad);
-      CanPlane plane;
-      EXPECT_FALSE(from_wire(m, &plane)) << bad;
+      CanSample plane;
+      EXPECT_NE(from_wire(m, default_messages(), &plane), nullptr) << bad;
     }
   };
   refuses_plane([](ground_plane_t& m, double bad) { m.pitch_rad = bad; });
@@ -160,11 +162,11 @@ TEST(CanWire, EveryValueThatMustHoldIsChecked) {
 }
 
 TEST(CanWire, NumbersOutOfTheirRangeAreRefused) {
-  CanEgo ego;
+  CanSample ego;
   const auto refuses_ego = [&](auto change) {
     ego_motion_t m = make_ego();
     change(m);
-    EXPECT_FALSE(from_wire(m, &ego));
+    EXPECT_NE(from_wire(m, default_messages(), &ego), nullptr);
   };
   refuses_ego([](ego_motion_t& m) { m.status = -1; });
   refuses_ego([](ego_motion_t& m) { m.status = 6; });
@@ -175,11 +177,11 @@ TEST(CanWire, NumbersOutOfTheirRangeAreRefused) {
   refuses_ego([](ego_motion_t& m) { m.q_world_cam[0] = 2.0; });
   refuses_ego([](ego_motion_t& m) { m.q_world_cam[0] = 0.0; });
 
-  CanPlane plane;
+  CanSample plane;
   const auto refuses_plane = [&](auto change) {
     ground_plane_t m = make_plane();
     change(m);
-    EXPECT_FALSE(from_wire(m, &plane));
+    EXPECT_NE(from_wire(m, default_messages(), &plane), nullptr);
   };
   refuses_plane([](ground_plane_t& m) { m.status = -1; });
   refuses_plane([](ground_plane_t& m) { m.status = 4; });
@@ -194,35 +196,35 @@ TEST(CanWire, NumbersOutOfTheirRangeAreRefused) {
 }
 
 TEST(CanWire, TheEndsOfEveryRangeAreAccepted) {
-  CanEgo ego;
-  CanPlane plane;
+  CanSample ego;
+  CanSample plane;
   for (const std::int8_t reason : {std::int8_t{0}, std::int8_t{14}}) {
     ego_motion_t m = make_ego(0);
     m.reason = reason;
-    EXPECT_TRUE(from_wire(m, &ego));
+    EXPECT_EQ(from_wire(m, default_messages(), &ego), nullptr);
     ground_plane_t p = make_plane(0);
     p.reason = reason;
     p.num_cues = 0;
-    EXPECT_TRUE(from_wire(p, &plane));
-    EXPECT_EQ(plane.cues_used, 0);
+    EXPECT_EQ(from_wire(p, default_messages(), &plane), nullptr);
+    EXPECT_EQ(value_of(plane, "GroundDetail_CuesUsed"), 0);
   }
 }
 
 TEST(CanWire, NothingOfAnEarlierMessageIsLeft) {
-  CanEgo ego;
-  ASSERT_TRUE(from_wire(make_ego(), &ego));
+  CanSample ego;
+  ASSERT_EQ(from_wire(make_ego(), default_messages(), &ego), nullptr);
   ego_motion_t lost = make_ego(4);
   lost.status = ego_motion_t::STATUS_LOST;
-  ASSERT_TRUE(from_wire(lost, &ego));
-  EXPECT_TRUE(std::isnan(ego.speed_m_s));
-  EXPECT_TRUE(std::isnan(ego.distance_m));
+  ASSERT_EQ(from_wire(lost, default_messages(), &ego), nullptr);
+  EXPECT_TRUE(std::isnan(value_of(ego, "EgoMotion_Speed")));
+  EXPECT_TRUE(std::isnan(value_of(ego, "OdomDist_Distance")));
 
-  CanPlane plane;
-  ASSERT_TRUE(from_wire(make_plane(), &plane));
+  CanSample plane;
+  ASSERT_EQ(from_wire(make_plane(), default_messages(), &plane), nullptr);
   ground_plane_t invalid = make_plane(4);
   invalid.status = ground_plane_t::STATUS_INVALID;
-  ASSERT_TRUE(from_wire(invalid, &plane));
-  EXPECT_TRUE(std::isnan(plane.height_m));
+  ASSERT_EQ(from_wire(invalid, default_messages(), &plane), nullptr);
+  EXPECT_TRUE(std::isnan(value_of(plane, "GroundPlane_Height")));
 }
 
 TEST(CanWire, FieldsThatDoNotHoldAreNeitherCheckedNorSent) {
@@ -230,19 +232,19 @@ TEST(CanWire, FieldsThatDoNotHoldAreNeitherCheckedNorSent) {
   m.velocity_ground_m_s[0] = kNan;
   for (const std::int8_t status : {ego_motion_t::STATUS_INITIALIZING, ego_motion_t::STATUS_LOST}) {
     m.status = status;
-    CanEgo ego;
-    ASSERT_TRUE(from_wire(m, &ego));
-    EXPECT_TRUE(std::isnan(ego.yaw_rate_rad_s));
-    EXPECT_TRUE(std::isnan(ego.x_m));
+    CanSample ego;
+    ASSERT_EQ(from_wire(m, default_messages(), &ego), nullptr);
+    EXPECT_TRUE(std::isnan(value_of(ego, "EgoMotion_YawRate")));
+    EXPECT_TRUE(std::isnan(value_of(ego, "OdomX_PosX")));
   }
   ground_plane_t p = make_plane();
   p.height_m = kNan;
   for (const std::int8_t status :
        {ground_plane_t::STATUS_INITIALIZING, ground_plane_t::STATUS_INVALID}) {
     p.status = status;
-    CanPlane plane;
-    ASSERT_TRUE(from_wire(p, &plane));
-    EXPECT_TRUE(std::isnan(plane.pitch_rad));
+    CanSample plane;
+    ASSERT_EQ(from_wire(p, default_messages(), &plane), nullptr);
+    EXPECT_TRUE(std::isnan(value_of(plane, "GroundPlane_Pitch")));
   }
 }
 
@@ -251,61 +253,88 @@ TEST(CanWire, AnAccelerationThatCannotBeObservedIsNoError) {
        {&ego_motion_t::accel_forward_m_s2, &ego_motion_t::accel_forward_std_m_s2}) {
     ego_motion_t m = make_ego();
     m.*field = kNan;
-    CanEgo ego;
-    ASSERT_TRUE(from_wire(m, &ego));
-    EXPECT_TRUE(std::isnan(ego.accel_m_s2));
-    EXPECT_TRUE(std::isnan(ego.accel_std_m_s2));
+    CanSample ego;
+    ASSERT_EQ(from_wire(m, default_messages(), &ego), nullptr);
+    EXPECT_TRUE(std::isnan(value_of(ego, "EgoDetail_AccelX")));
+    EXPECT_TRUE(std::isnan(value_of(ego, "EgoDetail_AccelXStd")));
   }
 }
 
 TEST(CanOutputTest, ARejectedMessageIsCountedAndShown) {
   CanOutput output{CanConfig{}};
-  test::RecordingSink sink;
+  RecordingSink sink;
   ego_motion_t bad_ego = make_ego();
   bad_ego.status = 9;
   ground_plane_t bad_plane = make_plane();
   bad_plane.status = 9;
-  EXPECT_FALSE(output.on_ego_motion(bad_ego, 0));
-  EXPECT_FALSE(output.on_ground_plane(bad_plane, 0));
+  EXPECT_STREQ(output.on_ego_motion(bad_ego, 0), "unknown status");
+  EXPECT_STREQ(output.on_ground_plane(bad_plane, 0), "unknown status");
   EXPECT_EQ(output.num_rejected(), 2);
   output.report(1, 5);
   output.tick(0, sink);
-  EXPECT_EQ(sink.newest().num_rejected, 3.0);
-  EXPECT_EQ(sink.newest().num_unsent, 5.0);
-  EXPECT_TRUE(std::isnan(sink.newest().ego_validity));
+  EXPECT_EQ(sink.newest()["Status_NumRejected"], 3.0);
+  EXPECT_EQ(sink.newest()["Status_NumUnsent"], 5.0);
+  EXPECT_TRUE(std::isnan(sink.newest()["EgoMotion_Validity"]));
+}
+
+TEST(CanOutputTest, TwoCamerasShareOneBus) {
+  CanConfig second;
+  second.base_id = 0x3C0;
+  second.base_data_id = 0x3C00;
+  CanOutput front{CanConfig{}};
+  CanOutput rear{second};
+  RecordingSink bus;
+  for (CanOutput* const output : {&front, &rear}) {
+    ASSERT_EQ(output->on_ground_plane(make_plane(), 0), nullptr);
+    ASSERT_EQ(output->on_ego_motion(make_ego(), 0), nullptr);
+    for (int i = 0; i < 100; ++i) output->tick(i * CanGate::kTickUs, bus);
+  }
+  const Messages theirs = can_messages(second);
+  std::size_t num_front = 0;
+  for (const Sent& s : bus.sent) {
+    int num_owners = 0;
+    for (std::size_t i = 0; i < kNumMessages; ++i) {
+      MessageValues values;
+      const bool is_front = decode(default_messages()[i], s.frame, &values);
+      num_front += is_front ? 1 : 0;
+      num_owners += (is_front ? 1 : 0) + (decode(theirs[i], s.frame, &values) ? 1 : 0);
+    }
+    ASSERT_EQ(num_owners, 1) << s.frame.id;
+  }
+  EXPECT_EQ(2 * num_front, bus.sent.size());
 }
 
 /// Plays messages through the virtual clock as a replay does.
 class VirtualClock : public ::testing::Test {
  protected:
   CanOutput output_{CanConfig{}};
-  test::RecordingSink sink_;
+  RecordingSink sink_;
 
   void play(std::int64_t seq, std::int64_t utime) {
     ground_plane_t plane = make_plane(seq);
     ego_motion_t ego = make_ego(seq);
     output_.advance(utime, sink_);
-    EXPECT_TRUE(output_.on_ground_plane(plane, utime));
-    EXPECT_TRUE(output_.on_ego_motion(ego, utime));
+    EXPECT_EQ(output_.on_ground_plane(plane, utime), nullptr);
+    EXPECT_EQ(output_.on_ego_motion(ego, utime), nullptr);
   }
 };
 
 TEST_F(VirtualClock, TicksEveryTenMillisecondsOfTheLogsTime) {
   for (int i = 0; i < 11; ++i) play(i, 5'000'000 + i * 100'000);
-  EXPECT_EQ(sink_.all("PLB_EgoMotion").size(), 101U);
+  EXPECT_EQ(sink_.all("EgoMotion").size(), 101U);
   EXPECT_EQ(sink_.sent.front().time_us, 5'000'000);
   EXPECT_EQ(sink_.sent.back().time_us, 6'000'000);
   EXPECT_EQ(output_.counters().num_frames, 10);
   output_.finish(sink_);
   EXPECT_EQ(output_.counters().num_frames, 11);
-  EXPECT_EQ(sink_.newest().frame_counter, 10.0);
+  EXPECT_EQ(sink_.newest().frame_counter(), 10.0);
 }
 
 TEST_F(VirtualClock, KeepsItsGridWhenMessagesComeBetweenTicks) {
   for (int i = 0; i < 30; ++i) play(i, 1'000'000 + i * 33'333);
   std::int64_t last_us = 0;
-  for (const test::Sent& s : sink_.sent) {
-    if (s.frame.id != messages()[0].id) continue;
+  for (const Sent& s : sink_.sent) {
+    if (s.frame.id != default_messages()[0].address.id) continue;
     if (last_us != 0) {
       EXPECT_EQ(s.time_us - last_us, CanGate::kTickUs);
     }
@@ -337,10 +366,10 @@ TEST_F(VirtualClock, JumpsKeepEveryFrame) {
   EXPECT_LT(sink_.sent.size(), 1000U) << "a day's jump is not a day of frames";
   int valid = 0;
   double last = -1.0;
-  for (const CanValues& v : sink_.all("PLB_EgoMotion")) {
-    if (!std::isnan(v.ego_validity) && v.frame_counter != last) {
+  for (const Reading& v : sink_.all("EgoMotion")) {
+    if (!std::isnan(v["EgoMotion_Validity"]) && v.frame_counter() != last) {
       ++valid;
-      last = v.frame_counter;
+      last = v.frame_counter();
     }
   }
   EXPECT_EQ(valid, seq) << "each was sent as available";
@@ -350,8 +379,8 @@ TEST_F(VirtualClock, ASilenceInTheLogIsNotAvailable) {
   play(0, 1'000'000);
   play(1, 3'000'000);
   int absent = 0;
-  for (const CanValues& v : sink_.all("PLB_EgoMotion"))
-    absent += std::isnan(v.ego_validity) ? 1 : 0;
+  for (const Reading& v : sink_.all("EgoMotion"))
+    absent += std::isnan(v["EgoMotion_Validity"]) ? 1 : 0;
   EXPECT_NEAR(absent, 170, 2);
 }
 

@@ -1,14 +1,14 @@
 #include "tests/can/dbc.hpp"
 
-#include <fstream>
 #include <regex>
+#include <sstream>
 
 namespace plumb::test {
 namespace {
 
 const std::regex kVersion(R"re(VERSION "(.*)")re");
 const std::regex kMessage(R"re(BO_ (\d+) (\w+): (\d+) \w+)re");
-const std::regex kSignal(R"re( SG_ (\w+) : (\d+)\|(\d+)@([01])([+-]) )re"
+const std::regex kSignal(R"re( SG_ (\w+)(?: (M|m\d))? : (\d+)\|(\d+)@([01])([+-]) )re"
                          R"re(\(([-0-9.eE]+),([-0-9.eE]+)\) \[([-0-9.eE]+)\|([-0-9.eE]+)\] )re"
                          R"re("(.*)" \w+)re");
 const std::regex kMessageComment(R"re(CM_ BO_ (\d+) "(.*)";)re");
@@ -23,15 +23,16 @@ unsigned id_of(const std::string& text) { return static_cast<unsigned>(std::stou
 DbcSignal signal_of(const std::smatch& m) {
   DbcSignal s;
   s.name = m[1];
-  s.start_bit = std::stoi(m[2]);
-  s.length = std::stoi(m[3]);
-  s.is_intel = m[4] == "1";
-  s.is_signed = m[5] == "-";
-  s.factor = std::stod(m[6]);
-  s.offset = std::stod(m[7]);
-  s.min = std::stod(m[8]);
-  s.max = std::stod(m[9]);
-  s.unit = m[10];
+  s.multiplexing = m[2];
+  s.start_bit = std::stoi(m[3]);
+  s.length = std::stoi(m[4]);
+  s.is_intel = m[5] == "1";
+  s.is_signed = m[6] == "-";
+  s.factor = std::stod(m[7]);
+  s.offset = std::stod(m[8]);
+  s.min = std::stod(m[9]);
+  s.max = std::stod(m[10]);
+  s.unit = m[11];
   return s;
 }
 
@@ -64,9 +65,9 @@ DbcSignal* DbcMessage::find(const std::string& signal) {
   return nullptr;
 }
 
-Dbc read_dbc(const std::string& path) {
+Dbc read_dbc(const std::string& text) {
   Dbc dbc;
-  std::ifstream file(path);
+  std::istringstream file(text);
   DbcMessage* message = nullptr;
   for (std::string line; std::getline(file, line);) {
     std::smatch m;

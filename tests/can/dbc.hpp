@@ -1,4 +1,4 @@
-/// A small DBC reader of its own, so that the tests can hold the file against the C++ tables.
+/// A small DBC reader of its own, so that the tests can compare the text with the C++ tables.
 #pragma once
 
 #include <map>
@@ -9,6 +9,7 @@ namespace plumb::test {
 
 struct DbcSignal {
   std::string name;
+  std::string multiplexing;  ///< "", "M", "m3"
   int start_bit = 0;
   int length = 0;
   bool is_intel = false;
@@ -39,7 +40,6 @@ struct Dbc {
   std::map<unsigned, DbcMessage> messages;
 };
 
-/// Empty when the file cannot be read.
-[[nodiscard]] Dbc read_dbc(const std::string& path);
+[[nodiscard]] Dbc read_dbc(const std::string& text);
 
 }  // namespace plumb::test

@@ -1,11 +1,14 @@
-// config/plumbline.dbc is what a receiver is built from: its statements are held against the code.
+// config/plumbline.dbc is what a receiver is built from. The file is compared with what the program
+// prints and, through a reader of the tests' own, with the tables of signals and the constants of
+// the messages.
 #include <gtest/gtest.h>
 
-#include <set>
+#include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <vector>
 
-#include "modules/can/can_codec.hpp"
-#include "modules/can/can_gate.hpp"
+#include "modules/can/can_dbc.hpp"
 #include "plumb/detection_t.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
@@ -14,30 +17,50 @@
 #include "plumb/vo_motion_t.hpp"
 #include "plumb_paths.hpp"
 #include "tests/can/dbc.hpp"
+#include "tests/can/reading.hpp"
 
 namespace plumb {
 namespace {
 
+using test::default_messages;
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The names that a signal has in the DBC: one for each index of an object.
+std::vector<std::string> dbc_names(const Signal& signal) {
+  std::vector<std::string> names;
+  const std::string name = signal.name;
+  const std::size_t hash = name.find('#');
+  if (hash == std::string::npos) return {name};
+  for (int k = 0; k < 8; ++k) {
+    names.push_back(name);
+    names.back()[hash] = static_cast<char>('0' + k);
+  }
+  return names;
+}
+
 class DbcFile : public ::testing::Test {
  protected:
-  /// Of both tables.
-  static std::vector<Message> all_messages() {
-    std::vector<Message> all(messages().begin(), messages().end());
-    all.insert(all.end(), object_messages().begin(), object_messages().end());
-    return all;
-  }
-  test::Dbc dbc_ = test::read_dbc(PLUMB_SOURCE_DIR "/config/plumbline.dbc");
+  const std::string file_ = text_of(PLUMB_SOURCE_DIR "/config/plumbline.dbc");
+  test::Dbc dbc_ = test::read_dbc(file_);
 
   /// Calls `check(row of the C++ table, row of the DBC)` for every signal.
   template <typename Check>
   void for_each_signal(Check check) {
-    ASSERT_EQ(dbc_.messages.size(), all_messages().size());
-    for (const Message& message : all_messages()) {
+    ASSERT_EQ(dbc_.messages.size(), kNumMessages);
+    for (const Message& message : default_messages()) {
       for (const Signal& signal : message.signals) {
-        SCOPED_TRACE(signal.name);
-        const test::DbcSignal* said = dbc_.messages[message.id].find(signal.name);
-        ASSERT_NE(said, nullptr);
-        check(signal, *said);
+        for (const std::string& name : dbc_names(signal)) {
+          SCOPED_TRACE(name);
+          const test::DbcSignal* said = dbc_.messages[message.address.id].find(name);
+          ASSERT_NE(said, nullptr);
+          check(signal, *said);
+        }
       }
     }
   }
@@ -49,66 +72,113 @@ class DbcFile : public ::testing::Test {
   }
 };
 
+TEST_F(DbcFile, IsWhatPrintDbcPrints) {
+  EXPECT_EQ(file_, render_dbc(CanConfig{}, default_messages()))
+      << "renew it: plumb-can --print-dbc > config/plumbline.dbc";
+}
+
 TEST_F(DbcFile, HasTheMessagesOfTheTableAndNoOthers) {
-  ASSERT_EQ(dbc_.messages.size(), all_messages().size());
-  for (const Message& message : all_messages()) {
-    const test::DbcMessage& said = dbc_.messages[message.id];
-    EXPECT_EQ(said.name, message.name);
+  ASSERT_EQ(dbc_.messages.size(), kNumMessages);
+  for (const Message& message : default_messages()) {
+    const test::DbcMessage& said = dbc_.messages[message.address.id];
+    EXPECT_EQ(said.name, std::string("PLB_") + message.row->name);
     EXPECT_EQ(said.bytes, static_cast<int>(kMessageBytes));
-    EXPECT_EQ(said.signals.size(), message.signals.size());
+    std::size_t num_signals = 0;
+    for (const Signal& signal : message.signals) num_signals += dbc_names(signal).size();
+    EXPECT_EQ(said.signals.size(), num_signals);
     EXPECT_FALSE(said.comment.empty());
   }
 }
 
 TEST_F(DbcFile, AgreesOnEveryBitAndScale) {
   for_each_signal([](const Signal& ours, const test::DbcSignal& said) {
-    EXPECT_EQ(said.start_bit, ours.start_bit);
-    EXPECT_EQ(said.length, ours.length);
-    EXPECT_EQ(said.is_intel, ours.order == ByteOrder::kIntel);
+    EXPECT_EQ(said.start_bit, ours.layout.start_bit);
+    EXPECT_EQ(said.length, ours.layout.length);
+    EXPECT_EQ(said.is_intel, ours.layout.order == ByteOrder::kIntel);
     EXPECT_FALSE(said.is_signed);
-    EXPECT_EQ(said.factor, ours.factor);
-    EXPECT_EQ(said.offset, ours.offset);
+    EXPECT_EQ(said.factor, ours.layout.factor);
+    EXPECT_EQ(said.offset, ours.layout.offset);
+    EXPECT_EQ(said.unit, ours.unit);
   });
 }
 
 TEST_F(DbcFile, AgreesOnEveryRange) {
   for_each_signal([](const Signal& ours, const test::DbcSignal& said) {
-    EXPECT_NEAR(said.min, min_physical(ours), 1e-9);
-    EXPECT_NEAR(said.max, max_physical(ours), 1e-9);
+    EXPECT_NEAR(said.min, min_physical(ours.layout), 1e-9);
+    EXPECT_NEAR(said.max, max_physical(ours.layout), 1e-9);
   });
+}
+
+TEST_F(DbcFile, MultiplexesObjectsByTheirIndex) {
+  for_each_signal([](const Signal& ours, const test::DbcSignal& said) {
+    const std::size_t hash = std::string(ours.name).find('#');
+    const std::string index =
+        hash == std::string::npos ? "" : std::string("m") + said.name.substr(hash, 1);
+    EXPECT_EQ(said.multiplexing, is_framing(ours, Framing::kObjectIndex) ? "M" : index);
+    EXPECT_EQ(said.comment.find('#'), std::string::npos) << said.comment;
+  });
+  EXPECT_EQ(dbc_.messages[0x3B2].find("Obj3_VelXStd")->comment,
+            "Standard deviation of Obj3_VelX. All ones: not available.");
 }
 
 TEST_F(DbcFile, NamesNotAvailableForEverySignalThatHasIt) {
   for_each_signal([](const Signal& ours, const test::DbcSignal& said) {
-    if (!ours.has_sna || ours.value == nullptr) {
+    if (!ours.layout.has_sna || source_of(ours) == CanSource::kFraming) {
       EXPECT_EQ(said.values.size(), 0U);
       return;
     }
-    const long all_ones = (1L << ours.length) - 1;
+    const long all_ones = (1L << ours.layout.length) - 1;
     ASSERT_EQ(said.values.count(all_ones), 1U);
     EXPECT_EQ(said.values.at(all_ones), "SNA");
     EXPECT_EQ(said.attributes.at("GenSigStartValue"), std::to_string(all_ones));
     EXPECT_EQ(said.attributes.at("GenSigInactiveValue"), std::to_string(all_ones));
-    EXPECT_NE(said.comment.find("ll ones: not available"), std::string::npos)
+    EXPECT_NE(said.comment.find("All ones: not available"), std::string::npos)
         << "the comment says what all ones means";
   });
 }
 
 TEST_F(DbcFile, StatesCyclesSendTypesAndDataIds) {
-  std::set<std::string> data_ids;
-  for (const Message& message : all_messages()) {
-    auto& said = dbc_.messages[message.id].attributes;
-    EXPECT_EQ(said["GenMsgCycleTime"], std::to_string(message.cycle_ms));
-    EXPECT_EQ(said["GenMsgSendType"], message.cycle_ms == 0                  ? "2"
-                                      : message.trigger != CanTrigger::kNone ? "1"
-                                                                             : "0");
-    EXPECT_EQ(said["E2EDataID"], std::to_string(message.data_id));
+  for (const Message& message : default_messages()) {
+    auto& said = dbc_.messages[message.address.id].attributes;
+    const int cycle_ms = message.address.cycle_ms;
+    EXPECT_EQ(said["GenMsgCycleTime"], std::to_string(cycle_ms));
+    EXPECT_EQ(said["GenMsgSendType"], cycle_ms == 0                               ? "2"
+                                      : message.row->trigger != CanTrigger::kNone ? "1"
+                                                                                  : "0");
+    EXPECT_EQ(said["E2EDataID"], std::to_string(message.address.data_id));
     EXPECT_EQ(said["E2EProfile"], "PROFILE_11A");
     EXPECT_EQ(said["VFrameFormat"], "0");
-    EXPECT_EQ(message.cycle_ms % (CanGate::kTickUs / 1000), 0) << "a cycle is a number of ticks";
-    data_ids.insert(said["E2EDataID"]);
   }
-  EXPECT_EQ(data_ids.size(), all_messages().size());
+}
+
+TEST_F(DbcFile, FollowsTheConfiguration) {
+  CanConfig config;
+  config.node = "REAR";
+  config.extended_ids = true;
+  config.base_id = 0x18FF0000;
+  config.base_data_id = 0x100;
+  config.stale_s = 0.25;
+  config.messages[message_index("Status")].cycle_ms = 200;
+  const std::string text = render_dbc(config, can_messages(config));
+  EXPECT_NE(text.find("older than 0.25 s"), std::string::npos);
+  test::Dbc dbc = test::read_dbc(text);
+  ASSERT_EQ(dbc.messages.size(), kNumMessages);
+  test::DbcMessage& status = dbc.messages[0x80000000U | 0x18FF0007U];
+  EXPECT_EQ(status.name, "REAR_Status");
+  EXPECT_EQ(status.attributes["GenMsgCycleTime"], "200");
+  EXPECT_EQ(status.attributes["E2EDataID"], std::to_string(0x108));
+  EXPECT_EQ(status.attributes["VFrameFormat"], "1");
+}
+
+TEST_F(DbcFile, IsWhatStrictParsersRead) {
+  std::istringstream lines(file_);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), '"') % 2, 0) << "text on one line: " << line;
+  }
+  for (const auto& [id, message] : dbc_.messages) {
+    EXPECT_LE(message.name.size(), 32U) << message.name;
+    for (const test::DbcSignal& signal : message.signals) EXPECT_LE(signal.name.size(), 32U);
+  }
 }
 
 TEST_F(DbcFile, EverySignalSaysWhatItIs) {
@@ -149,7 +219,7 @@ TEST_F(DbcFile, EnumerationsHaveTheNumbersOfTheMessages) {
 }
 
 TEST_F(DbcFile, ObjectsHaveTheNumbersOfTheMessages) {
-  const auto& object_class = values("PLB_ObjectState", "ObjState_Class");
+  const auto& object_class = values("PLB_ObjectState", "Obj0_Class");
   EXPECT_EQ(object_class.at(detection_t::CLASS_UNKNOWN), "UNKNOWN");
   EXPECT_EQ(object_class.at(detection_t::CLASS_CAR), "CAR");
   EXPECT_EQ(object_class.at(detection_t::CLASS_VAN), "VAN");
@@ -157,7 +227,7 @@ TEST_F(DbcFile, ObjectsHaveTheNumbersOfTheMessages) {
   EXPECT_EQ(object_class.at(detection_t::CLASS_BUS), "BUS");
   EXPECT_EQ(object_class.at(detection_t::CLASS_PEDESTRIAN), "PEDESTRIAN");
   EXPECT_EQ(object_class.at(detection_t::CLASS_CYCLIST), "CYCLIST");
-  const auto& status = values("PLB_ObjectState", "ObjState_Status");
+  const auto& status = values("PLB_ObjectState", "Obj7_Status");
   EXPECT_EQ(status.at(object_t::STATUS_MEASURED), "MEASURED");
   EXPECT_EQ(status.at(object_t::STATUS_PREDICTED), "PREDICTED");
   EXPECT_EQ(status.at(object_t::STATUS_NOT_LOCALISED), "NOT_LOCALISED");

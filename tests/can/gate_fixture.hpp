@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/numbers.hpp"
-#include "modules/can/can_gate.hpp"
+#include "modules/can/can_wire.hpp"
 #include "tests/can/recording_sink.hpp"
 
 namespace plumb::test {
@@ -16,51 +16,62 @@ inline constexpr double kInvalid = static_cast<double>(CanValidity::kInvalid);
 inline constexpr double kDegraded = static_cast<double>(CanValidity::kDegraded);
 inline constexpr double kValid = static_cast<double>(CanValidity::kValid);
 
-inline CanEgo make_ego(std::int64_t seq, CanEgoStatus status = CanEgoStatus::kOk) {
-  CanEgo ego;
-  ego.seq = seq;
-  ego.status = status;
-  ego.speed_m_s = 12.5;
-  ego.speed_std_m_s = 0.1;
-  ego.lateral_speed_m_s = -0.2;
-  ego.yaw_rate_rad_s = 0.1;
-  ego.yaw_rate_std_rad_s = 0.001;
-  ego.accel_m_s2 = -1.5;
-  ego.accel_std_m_s2 = 0.2;
-  ego.x_m = 100.0;
-  ego.y_m = -20.0;
-  ego.z_m = 1.0;
-  ego.heading_rad = 0.5;
-  ego.distance_m = 120.0;
-  ego.scale_std_ratio = 0.02;
-  return ego;
+inline ego_motion_t make_ego(std::int64_t seq, std::int8_t status = ego_motion_t::STATUS_OK) {
+  ego_motion_t m{};
+  m.seq = seq;
+  m.status = status;
+  m.velocity_ground_m_s[0] = 12.5;
+  m.velocity_ground_m_s[1] = -0.2;
+  m.speed_std_m_s = 0.1;
+  m.rate_ground_rad_s[2] = 0.1;
+  m.yaw_rate_std_rad_s = 0.001;
+  m.accel_forward_m_s2 = -1.5;
+  m.accel_forward_std_m_s2 = 0.2;
+  m.q_world_cam[0] = std::cos(-0.25);  // heading 0.5 to the left
+  m.q_world_cam[2] = std::sin(-0.25);
+  m.t_world_cam_m[0] = 20.0;
+  m.t_world_cam_m[1] = -1.0;
+  m.t_world_cam_m[2] = 100.0;
+  m.distance_m = 120.0;
+  m.log_scale_std = 0.02;
+  return m;
 }
 
-inline CanPlane make_plane(std::int64_t seq, CanPlaneStatus status = CanPlaneStatus::kOk) {
-  CanPlane plane;
-  plane.seq = seq;
-  plane.status = status;
-  plane.pitch_rad = 0.01;
-  plane.roll_rad = -0.02;
-  plane.height_m = 1.65;
-  plane.pitch_std_rad = 0.002;
-  plane.roll_std_rad = 0.003;
-  plane.height_std_m = 0.02;
-  plane.cues_used = 3;
-  return plane;
+inline ground_plane_t make_plane(std::int64_t seq, std::int8_t status = ground_plane_t::STATUS_OK) {
+  ground_plane_t m{};
+  m.seq = seq;
+  m.status = status;
+  m.pitch_rad = 0.01;
+  m.roll_rad = -0.02;
+  m.height_m = 1.65;
+  const double stds[] = {0.002, 0.003, 0.02 / 1.65};
+  for (int i = 0; i < 3; ++i) m.cov[i][i] = stds[i] * stds[i];
+  m.num_cues = 3;
+  m.cues[2].status = ground_cue_t::STATUS_ABSENT;
+  return m;
+}
+
+/// What a message says to the bus; a broken one fails the test.
+template <typename Message>
+CanSample sample_of(const Message& message) {
+  CanSample sample;
+  EXPECT_EQ(from_wire(message, default_messages(), &sample), nullptr);
+  return sample;
 }
 
 class GateFixture : public ::testing::Test {
  protected:
   CanConfig config_;
-  CanGate gate_{config_};
+  CanGate gate_{config_, default_messages()};
   RecordingSink sink_;
   std::int64_t now_us_ = 1'000'000;
 
   void give(std::int64_t seq) {
-    gate_.on_ground_plane(make_plane(seq), now_us_);
-    gate_.on_ego_motion(make_ego(seq), now_us_);
+    hear(make_plane(seq));
+    hear(make_ego(seq));
   }
+  void hear(const ground_plane_t& plane) { gate_.on_ground_plane(sample_of(plane), now_us_); }
+  void hear(const ego_motion_t& ego) { gate_.on_ego_motion(sample_of(ego), now_us_); }
   void tick(int num_ticks = 1) {
     for (int i = 0; i < num_ticks; ++i) {
       gate_.tick(now_us_, sink_);
@@ -68,26 +79,28 @@ class GateFixture : public ::testing::Test {
     }
   }
   /// Ego motion's frame counters in the order of transmission, repeats removed.
-  std::vector<int> frames_sent(const char* message = "PLB_EgoMotion") {
+  std::vector<int> frames_sent(const char* message = "EgoMotion") {
     std::vector<int> result;
-    for (const CanValues& v : sink_.all(message)) {
-      const int counter = static_cast<int>(v.frame_counter);
-      if (std::isnan(v.ego_validity) && std::isnan(v.plane_validity)) continue;
+    for (const Reading& v : sink_.all(message)) {
+      const int counter = static_cast<int>(v.frame_counter());
+      if (std::isnan(v.validity())) continue;
       if (result.empty() || result.back() != counter) result.push_back(counter);
     }
     return result;
   }
-  void expect_all_ego_values_absent(const CanValues& v) {
+  void expect_all_ego_values_absent(const Reading& v) {
     for (const double value :
-         {v.standstill, v.speed_m_s, v.yaw_rate_rad_s, v.speed_std_m_s, v.lateral_speed_m_s,
-          v.accel_m_s2, v.accel_std_m_s2, v.yaw_rate_std_rad_s, v.x_m, v.y_m, v.z_m, v.heading_rad,
-          v.distance_m, v.scale_std_ratio}) {
+         {v["EgoMotion_Standstill"], v["EgoMotion_Speed"], v["EgoMotion_YawRate"],
+          v["EgoMotion_SpeedStd"], v["EgoDetail_SpeedY"], v["EgoDetail_AccelX"],
+          v["EgoDetail_AccelXStd"], v["EgoDetail_YawRateStd"], v["OdomX_PosX"], v["OdomY_PosY"],
+          v["OdomY_PosZ"], v["OdomX_Heading"], v["OdomDist_Distance"], v["OdomDist_ScaleStd"]}) {
       EXPECT_TRUE(std::isnan(value));
     }
   }
-  void expect_all_plane_values_absent(const CanValues& v) {
+  void expect_all_plane_values_absent(const Reading& v) {
     for (const double value :
-         {v.pitch_rad, v.roll_rad, v.height_m, v.pitch_std_rad, v.roll_std_rad, v.height_std_m}) {
+         {v["GroundPlane_Pitch"], v["GroundPlane_Roll"], v["GroundPlane_Height"],
+          v["GroundDetail_PitchStd"], v["GroundDetail_RollStd"], v["GroundDetail_HeightStd"]}) {
       EXPECT_TRUE(std::isnan(value));
     }
   }

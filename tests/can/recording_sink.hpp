@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/can/can_codec.hpp"
+#include "tests/can/reading.hpp"
 
 namespace plumb::test {
 
@@ -23,31 +23,26 @@ class RecordingSink final : public CanSink {
     sent.push_back({time_us, frame});
   }
 
-  /// Every frame of a message, decoded; a frame that does not decode fails the test.
-  [[nodiscard]] std::vector<CanValues> all(const std::string& name) const {
-    std::vector<CanValues> result;
-    for (const Message& message : messages()) {
-      if (message.name != name) continue;
-      for (const Sent& s : sent) {
-        if (s.frame.id != message.id) continue;
-        CanValues values;
-        EXPECT_TRUE(decode(message, s.frame, &values));
-        result.push_back(values);
-      }
+  /// Every frame of a message; a frame that does not decode fails the test.
+  [[nodiscard]] std::vector<Reading> all(const std::string& name) const {
+    const Message& message = message_named(name);
+    std::vector<Reading> result;
+    for (const Sent& s : sent) {
+      if (s.frame.id != message.address.id) continue;
+      Reading reading;
+      EXPECT_TRUE(reading.read(message, s.frame));
+      result.push_back(reading);
     }
     return result;
   }
   /// All messages of the newest moment in one.
-  [[nodiscard]] CanValues newest() const {
-    CanValues values;
-    for (const Message& message : messages()) {
-      const std::vector<CanValues> list = all(message.name);
-      if (list.empty()) continue;
-      for (const Signal& signal : message.signals) {
-        if (signal.value != nullptr) values.*signal.value = list.back().*signal.value;
-      }
+  [[nodiscard]] Reading newest() const {
+    Reading result;
+    for (const Message& message : default_messages()) {
+      const std::vector<Reading> list = all(message.row->name);
+      if (!list.empty()) result.merge(list.back());
     }
-    return values;
+    return result;
   }
 };
 

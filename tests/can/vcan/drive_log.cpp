@@ -155,8 +155,8 @@ bool write_trace(const char* log_path, const char* trace_path) {
       output.on_ego_motion(ego, ego.utime);
     } else if (take(event, kObjects, &objects)) {
       output.advance(objects.utime, trace);
-      if (!output.on_objects(objects, objects.utime))
-        std::printf("objects of %lld are refused\n", static_cast<long long>(objects.seq));
+      if (const char* const fault = output.on_objects(objects, objects.utime))
+        std::printf("objects of %lld: %s\n", static_cast<long long>(objects.seq), fault);
     } else if (take(event, kMount, &mount)) {
       output.advance(mount.utime, trace);
       output.on_mount(mount, mount.utime);

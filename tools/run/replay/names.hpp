@@ -1,4 +1,5 @@
-/// Words for the status and reason numbers of the messages; "?" for numbers that have none.
+/// Words for the status and reason numbers of the messages, from the constants of the .lcm files;
+/// "?" for a number that has no word.
 #pragma once
 
 namespace plumb {
@@ -10,7 +11,7 @@ namespace plumb {
 [[nodiscard]] const char* cue_status_name(int status);
 [[nodiscard]] const char* ego_status_name(int status);
 [[nodiscard]] const char* mount_status_name(int status);
-[[nodiscard]] const char* object_class_name(int object_class);
+[[nodiscard]] const char* object_class_name(int number);
 [[nodiscard]] const char* object_status_name(int status);
 [[nodiscard]] const char* object_reason_name(int reason);
 

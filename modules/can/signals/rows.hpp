@@ -1,0 +1,42 @@
+/// Rows that every message has: its protection, and what ties it to a camera frame.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/can/can_signal.hpp"
+
+namespace plumb {
+
+constexpr Signal crc(const char* name) {
+  return {name,
+          {0, 8, 1.0, 0.0, false},
+          "",
+          {Framing::kCrc},
+          "CRC-8 of AUTOSAR E2E profile 11A: polynomial 0x1D, start 0, no final xor, over the low "
+          "byte and the high byte of E2EDataID, then bytes 1 to 7 of the frame."};
+}
+
+constexpr Signal alive_counter(const char* name) {
+  return {name,
+          {8, 4},
+          "",
+          {Framing::kAliveCounter},
+          "Alive counter 0 to 14, +1 with every transmission of this message; 15 is never sent."};
+}
+
+constexpr Signal frame_counter(const char* name) {
+  return {
+      name,
+      {16, 8, 1.0, 0.0, false},
+      "",
+      {Framing::kFrameCounter},
+      "Low 8 bits of the camera frame's sequence number; messages with the same value belong to "
+      "the same camera frame. All 256 values are counts, there is no value for not available."};
+}
+
+/// A counter that never reaches 255, which stands for "not available".
+constexpr std::uint32_t modulo_255(std::int32_t count) {
+  return static_cast<std::uint32_t>(count) % 255U;
+}
+
+}  // namespace plumb
