@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "plumb/detections_t.hpp"
+#include "plumb/ground_plane_t.hpp"
 #include "plumb/objects_t.hpp"
 #include "plumb/process_health_t.hpp"
 
@@ -62,6 +63,7 @@ class WireCursor {
 };
 
 [[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> bytes, const detections_t*);
+[[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> bytes, const ground_plane_t*);
 [[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> bytes, const objects_t*);
 [[nodiscard]] bool lengths_hold(std::span<const std::uint8_t> bytes, const process_health_t*);
 template <typename Message>

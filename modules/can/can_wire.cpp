@@ -1,5 +1,6 @@
 #include "modules/can/can_wire.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/same_value.hpp"
@@ -153,17 +154,18 @@ bool from_wire(const ego_motion_t& message, CanEgo* ego) {
 }
 
 bool from_wire(const ground_plane_t& message, CanPlane* plane) {
-  constexpr int kNumCues = 3;
+  constexpr std::size_t kNumCueBits = 3;  // of the signal CuesUsed, whose 15 is "not available"
   if (message.seq < 0 || message.status < ground_plane_t::STATUS_OK ||
       message.status > ground_plane_t::STATUS_INVALID || message.reason < 0 ||
-      message.reason > kMaxReason || message.num_cues < 0 || message.num_cues > kNumCues) {
+      message.reason > kMaxReason || message.num_cues < 0 ||
+      message.cues.size() != static_cast<std::size_t>(message.num_cues)) {
     return false;
   }
   *plane = CanPlane{};
   plane->seq = message.seq;
   plane->status = static_cast<CanPlaneStatus>(message.status);
   plane->reason = static_cast<int>(message.reason);
-  for (int i = 0; i < message.num_cues; ++i) {
+  for (std::size_t i = 0; i < std::min(message.cues.size(), kNumCueBits); ++i) {
     if (message.cues[i].status == 0) plane->cues_used += 1 << i;
   }
   if (plane->status != CanPlaneStatus::kOk && plane->status != CanPlaneStatus::kHeld) return true;

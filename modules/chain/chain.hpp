@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "modules/can/can_wire.hpp"
+#include "modules/chain/model_file_source.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/ground/ground_node.hpp"
 #include "modules/mount/mount_node.hpp"
@@ -72,6 +73,7 @@ class Chain {
   void send_can();
   void refuse(const std::string& what, const char* why);
 
+  TrainedModels models_;
   StageTimer vo_timer_;
   StageTimer ground_timer_;
   VoNode vo_;

@@ -42,14 +42,14 @@ double PaperDenseCue::cost(const ImageView& old_image, const Se3& T_old_cam,
   return std::isnan(sad) ? kInfinity : 1.0 - std::exp(-ln_rho_ * sad);  // (7)
 }
 
-PaperDenseObservation PaperDenseCue::measure(const ImageView& old_image, const Se3& T_old_cam,
+PaperDenseMeasurement PaperDenseCue::measure(const ImageView& old_image, const Se3& T_old_cam,
                                              const Eigen::Vector3d& expected) const {
   const auto f = [&](const Eigen::Vector3d& z) { return cost(old_image, T_old_cam, z); };
   const Eigen::Vector3d step(kFirstTilt, kFirstTilt, kFirstHeightRatio * expected(kH));
   NelderMead<3, decltype(f)> search(f, kLimits);
   const NelderMeadResult<3> found = search.run(expected, step);
 
-  PaperDenseObservation out;
+  PaperDenseMeasurement out;
   out.num_evaluations = found.num_evaluations;
   out.z = found.x;
   const double height_ratio = found.x(kH) / expected(kH);
@@ -59,8 +59,8 @@ PaperDenseObservation PaperDenseCue::measure(const ImageView& old_image, const S
   out.sad = region_.sad(old_image, T_old_cam, q_of(out.z));
   out.width.setConstant(kInfinity);
   for (const PlaneComponent along : {kN1, kN3, kH}) {
-    const Bell bell = fit_bell(slice(old_image, T_old_cam, out.z, along));
-    if (bell.ok) out.width(along) = bell.width;
+    const GaussianDip dip = fit_gaussian(slice(old_image, T_old_cam, out.z, along));
+    if (dip.ok) out.width(along) = dip.width;
   }
   out.ok = true;
   return out;

@@ -11,13 +11,13 @@
 #include <Eigen/Core>
 
 #include "core/se3.hpp"
-#include "modules/ground_paper/bell_fit.hpp"
+#include "modules/ground_paper/gaussian_fit.hpp"
 #include "modules/ground_paper/plane_vector.hpp"
 #include "modules/ground_paper/road_region.hpp"
 
 namespace plumb {
 
-struct PaperDenseObservation {
+struct PaperDenseMeasurement {
   bool ok = false;
   Eigen::Vector3d z = Eigen::Vector3d::Zero();  ///< (n1, n3, h)
   double sad = 0.0;                             ///< grey levels, at z
@@ -34,7 +34,7 @@ class PaperDenseCue {
   void take(const ImageView& image) { region_.take(image); }
 
   /// @pre |T_old_cam.t| > 0, expected(kH) > 0
-  [[nodiscard]] PaperDenseObservation measure(const ImageView& old_image, const Se3& T_old_cam,
+  [[nodiscard]] PaperDenseMeasurement measure(const ImageView& old_image, const Se3& T_old_cam,
                                               const Eigen::Vector3d& expected) const;
 
   /// The height at which a road of that normal fits best, over all plausible speeds; 0 when none

@@ -27,7 +27,7 @@ struct Triangulated {
 [[nodiscard]] Triangulated triangulate(const CameraModel& camera, const Se3& T_old_cam,
                                        const PixelMatch& match);
 
-struct PaperPointsObservation {
+struct PaperPointsMeasurement {
   bool ok = false;
   double height = 0.0;
   double score = 0.0;  ///< q of (8): the belief
@@ -40,9 +40,9 @@ class PaperPointsCue {
   /// `normal_cam` is the calibrated one: the paper holds the pitch fixed.
   PaperPointsCue(const CameraModel& camera, const Eigen::Vector3d& normal_cam, double mu);
 
-  [[nodiscard]] PaperPointsObservation measure(std::span<const PixelMatch> matches,
+  [[nodiscard]] PaperPointsMeasurement measure(std::span<const PixelMatch> matches,
                                                const Se3& T_old_cam);
-  /// Vote when the unit of t says nothing yet, for a camera at `height_m`. 0 with too few points.
+  /// HeightVote when the unit of t says nothing yet, for a camera at `height_m`. 0 with too few points.
   [[nodiscard]] double search_height(std::span<const PixelMatch> matches, const Se3& T_old_cam,
                                      double height_m);
 

@@ -31,9 +31,9 @@ class PlaneKalman {
 
   /// Another unit of length: h becomes h / s.
   void divide_unit(double s);
-  /// h is known no better than by this much more.
-  void doubt_height(double var) { P_(3, 3) += var; }
-  /// Takes h as `height`, with the deviation it has.
+  /// Adds to the variance of h.
+  void add_height_var(double var) { P_(3, 3) += var; }
+  /// Sets h to `height` and keeps its variance.
   void hold_height(double height) { h_ = height; }
 
   [[nodiscard]] const Eigen::Vector3d& normal() const { return n_; }

@@ -56,7 +56,7 @@ Eigen::Vector4d box_vector(const Box& box) {
   return {box.centre_u_px(), box.bottom_px, box.width_px(), box.height_px()};
 }
 
-double placement_belief_px2(const MixtureComponent& component) {
+double placement_confidence_px2(const MixtureComponent& component) {
   const double foot = component.cov(1, 1);
   const double height = component.cov(3, 3);
   return foot * height / (foot + height);

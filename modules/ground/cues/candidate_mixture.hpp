@@ -83,6 +83,6 @@ class CandidateMixture {
 };
 
 /// Paper's a_d [px^2]: the variances of lower edge and height, one over the sum of their inverses.
-[[nodiscard]] double placement_belief_px2(const MixtureComponent& component);
+[[nodiscard]] double placement_confidence_px2(const MixtureComponent& component);
 
 }  // namespace plumb

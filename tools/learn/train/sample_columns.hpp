@@ -1,9 +1,21 @@
 /// The columns of a sample file, in order. Part of sample.hpp.
 #pragma once
 
+#include <string>
+
 #include "tools/learn/train/sample.hpp"
 
 namespace plumb {
+
+template <typename Cue, typename Field>
+void visit_cue(const std::string& name, Cue& cue, Field&& field) {
+  field((name + "_status").c_str(), cue.status);
+  field((name + "_quality").c_str(), cue.quality);
+  field((name + "_innovation_n1").c_str(), cue.innovation_n1);
+  field((name + "_innovation_n3").c_str(), cue.innovation_n3);
+  field((name + "_innovation_ln_height").c_str(), cue.innovation_ln_height);
+  field((name + "_test_ratio").c_str(), cue.test_ratio);
+}
 
 template <typename S, typename Field>
 void Sample::visit(S& s, Field&& field) {
@@ -52,13 +64,13 @@ void Sample::visit(S& s, Field&& field) {
   field("points_err", s.points_err);
   field("points_ref_var", s.points_ref_var);
   field("points_hand_var", s.points_hand_var);
-  field("objects_belief", s.objects_belief);
+  field("objects_confidence", s.objects_confidence);
   field("objects_err_n3", s.objects_err_n3);
-  field("travel_chord_ratio", s.travel_chord_ratio);
-  field("travel_num_frames", s.travel_num_frames);
-  field("travel_err", s.travel_err);
-  field("travel_ref", s.travel_ref);
-  field("travel_hand_var", s.travel_hand_var);
+  field("chord_ratio", s.chord_ratio);
+  field("chord_num_frames", s.chord_num_frames);
+  field("chord_err", s.chord_err);
+  field("chord_ref", s.chord_ref);
+  field("chord_hand_var", s.chord_hand_var);
   field("out_scale_err", s.out_scale_err);
   field("out_scale_var", s.out_scale_var);
   field("out_scale_bias_var", s.out_scale_bias_var);
@@ -73,7 +85,7 @@ void Sample::visit(S& s, Field&& field) {
   field("out_roll_added_var", s.out_roll_added_var);
   field("out_dense_n1_square", s.out_dense_n1_square);
   field("out_dense_n3_square", s.out_dense_n3_square);
-  field("out_travel_square", s.out_travel_square);
+  field("out_chord_square", s.out_chord_square);
   field("out_step_err", s.out_step_err);
   field("out_step_var", s.out_step_var);
   field("out_move_nees", s.out_move_nees);
@@ -86,6 +98,8 @@ void Sample::visit(S& s, Field&& field) {
   field("paper_err_n1", s.paper_err_n1);
   field("paper_err_n3", s.paper_err_n3);
   field("paper_err_points", s.paper_err_points);
+  for (std::size_t i = 0; i < kNumCues; ++i)
+    visit_cue(std::string("cue_") + kCueTable[i].name, s.cues[i], field);
 }
 
 }  // namespace plumb
