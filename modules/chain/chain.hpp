@@ -1,4 +1,5 @@
-/// The live chain in one process: CAMERA of a log -> vo -> ground -> can, with DETECTIONS -> objects, as fast as it goes.
+/// The live chain in one process: CAMERA of a log -> vo -> ground -> can, with DETECTIONS ->
+/// objects, as fast as it goes.
 ///
 /// It runs the classes that plumb-vo, plumb-ground and plumb-can run, and hands on the messages
 /// they would publish, so its results are theirs bit for bit as long as no image is lost. Nothing
@@ -43,8 +44,8 @@ class Chain {
 
   using ObjectsSink = std::function<void(const objects_t&)>;
 
-  /// `can_sink` may be null. `sink` is called once per image, `objects_sink` (may be empty) once per image that was
-  /// searched for objects.
+  /// `can_sink` may be null. `sink` is called once per image, `objects_sink` (may be empty) once
+  /// per image that was searched for objects.
   Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
         ObjectsSink objects_sink = {});
 

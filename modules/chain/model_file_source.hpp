@@ -1,4 +1,5 @@
-/// Files of trained models: TOML with one schema and version, every number present and in its range.
+/// Files of trained models: TOML with one schema and version, every number present and in its
+/// range.
 #pragma once
 
 #include <string>
@@ -14,10 +15,9 @@ struct TrainedModels {
   PaperModel paper = built_in_paper_model();
 };
 
-/// An empty path gives the built-in models.
-/// Throws ConfigError ("FILE:LINE: ...") for a file that cannot be read, has another schema or
-/// version, lacks a number, has one that is unknown or out of range, or whose bounds contradict each
-/// other.
+/// An empty path gives the built-in models. Throws ConfigError ("FILE:LINE: ...") for a file that
+/// cannot be read, has another schema or version, lacks a number, has one that is unknown or out of
+/// range, or whose bounds contradict each other.
 [[nodiscard]] TrainedModels load_models(const std::string& path);
 
 /// The text of a model file that load_models() reads; numbers are rounded to `kModelDigits`.

@@ -1,4 +1,4 @@
-/// Gates and fuses one frame's observations of every cue, out of the one table of cues.
+/// Gates and fuses one frame's observations of every cue in kCueTable.
 ///
 /// Memory  none beyond the filter's.
 #pragma once
@@ -13,7 +13,7 @@ namespace plumb {
 /// One observation for each cue of kCueTable.
 using Observations = std::array<Observation, kNumCues>;
 
-/// Whether a cue that measures the height ended with `status`.
+/// Tells whether any cue that measures the height has this status.
 [[nodiscard]] bool any_height(const Observations& observations, CueStatus status);
 
 /// Initialises the filter from the first cue that is certain enough; else leaves it as it is.

@@ -119,7 +119,8 @@ CueFrame GroundEstimator::Impl::take(const GroundInput& input) {
   return frame;
 }
 
-/// The scale stays when the body rises or sinks: the height in VO's unit changes with the metric one.
+/// The scale stays when the body rises or sinks: the height in VO's unit changes with the metric
+/// one.
 void GroundEstimator::Impl::take_height(const CameraHeight& height) {
   if (filter.started() && height.height_m != camera_height.height_m) {
     filter.change_height(std::log(height.height_m / camera_height.height_m));
@@ -170,7 +171,8 @@ RoadShape GroundEstimator::Impl::road_shape(const Chord& chord) const {
           chord.curvature};
 }
 
-/// Runs every cue of the table. `prior` becomes that of the last cue: a cue may have found a height.
+/// Runs every cue of the table. `prior` becomes that of the last cue: a cue may have found a
+/// height.
 Observations GroundEstimator::Impl::measure(const CueFrame& frame, FramePrior* prior,
                                             StageProbe& probe) {
   Observations observations;
@@ -256,8 +258,7 @@ void GroundEstimator::Impl::diagnose(const CueFrame& frame, const FramePrior& pr
   diagnostics.cov = filter.ahead_cov();
   diagnostics.plane_context = residuals.context();
   diagnostics.plane_added = covariance->plane(residuals.context());
-  diagnostics.ln_scale_bias_var =
-      covariance->ln_scale_bias_std() * covariance->ln_scale_bias_std();
+  diagnostics.ln_scale_bias_var = covariance->ln_scale_bias_std() * covariance->ln_scale_bias_std();
 }
 
 ScaleEstimate GroundEstimator::Impl::scale(const FramePrior& prior, bool measured) const {

@@ -33,8 +33,8 @@ class GroundAlgorithm {
   [[nodiscard]] virtual const CueDiagnostics* diagnostics() const { return nullptr; }
 };
 
-/// The default algorithm: an extended Kalman filter of the road plane (plane_filter.hpp), fed by the
-/// cues of kCueTable.
+/// The default algorithm: an extended Kalman filter of the road plane (plane_filter.hpp), fed by
+/// the cues of kCueTable.
 class GroundEstimator final : public GroundAlgorithm {
  public:
   /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64

@@ -1,5 +1,5 @@
-/// Everything plumb-ground does between its input messages and its output messages. plumb-replay runs
-/// the same class.
+/// Everything plumb-ground does between its input messages and its output messages. plumb-replay
+/// runs the same class.
 ///
 /// Pairing  A VO motion is processed with the image of its number and time. If that image has not
 ///          arrived, the motion waits for the image, for the next motion or for expire(), whichever
@@ -43,8 +43,7 @@ class GroundNode {
   /// `probe` must outlive the node; a "decode" stage is marked before the algorithm's own. Without
   /// `make` the algorithm is a GroundEstimator.
   GroundNode(const GroundConfig& config, const DetectionsConfig& detections, StageProbe* probe,
-             Sink sink, const GroundModel& model = built_in_ground_model(),
-             Factory make = {});
+             Sink sink, const GroundModel& model = built_in_ground_model(), Factory make = {});
 
   /// Each returns null when the message was taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
@@ -60,7 +59,8 @@ class GroundNode {
 
   [[nodiscard]] bool calibrated() const { return algorithm_ != nullptr; }
   [[nodiscard]] bool waiting() const { return waiting_; }
-  /// What went into the newest frame; null before a calibration and when the algorithm does not tell.
+  /// What went into the newest frame; null before a calibration and when the algorithm does not
+  /// tell.
   [[nodiscard]] const CueDiagnostics* diagnostics() const {
     return algorithm_ ? algorithm_->diagnostics() : nullptr;
   }

@@ -94,14 +94,12 @@ const char* rates_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   ego->log_scale = message.log_scale;
   ego->log_scale_std = message.log_scale_std;
   // The scale is unknown while the car has not moved yet.
-  const bool scale_valid =
-      std::isfinite(ego->log_scale) &&
-      (is_std(ego->log_scale_std) ||
-       (ego->status == EgoStatus::kStandstill && std::isnan(ego->log_scale_std)));
+  const bool scale_valid = std::isfinite(ego->log_scale) &&
+                           (is_std(ego->log_scale_std) || (ego->status == EgoStatus::kStandstill &&
+                                                           std::isnan(ego->log_scale_std)));
   const bool valid = ego->velocity_ground_m_s.allFinite() && ego->rate_ground_rad_s.allFinite() &&
                      is_std(ego->speed_std_m_s) && is_std(ego->yaw_rate_std_rad_s) &&
-                     !std::isinf(ego->accel_forward_m_s2) && is_std(ego->distance_m) &&
-                     scale_valid;
+                     !std::isinf(ego->accel_forward_m_s2) && is_std(ego->distance_m) && scale_valid;
   return valid ? nullptr : "ego motion: a velocity, rate or scale is not a number";
 }
 

@@ -13,10 +13,10 @@ using Parameters = Eigen::Vector4d;
 
 constexpr int kIterations = 40;
 constexpr double kEnough = 1e-9;
-// Slices are centred on the found minimum: a dip near their ends is another one, or a slope.
+// Slices are centred on the minimum: a dip near their ends is another one, or a slope.
 constexpr double kFarthestCentre = 0.5;
-// A dip narrower than a third of the spacing falls between samples; one wider than the slice is
-// none.
+// A dip narrower than a third of the spacing falls between the samples; one wider than the slice is
+// no dip.
 constexpr double kNarrowest = 0.3 * 2.0 / (kSliceSamples - 1);
 constexpr double kWidest = 2.0;
 
@@ -50,7 +50,7 @@ void normal_equations(const Scaled& s, const Parameters& p, Eigen::Matrix4d* H,
   }
 }
 
-/// The lowest sample, and the distance over which the cost rises by half of its range.
+/// Takes the lowest sample, and the distance over which the cost rises by half of its range.
 Parameters first_guess(const Scaled& s) {
   const auto [low, high] = std::minmax_element(s.f->begin(), s.f->end());
   const auto bottom = static_cast<std::size_t>(low - s.f->begin());
@@ -96,7 +96,7 @@ GaussianDip fit_gaussian(const Slice& slice) {
   }
   GaussianDip dip{false, middle + half_range * p(2), half_range * p(3), p(1), p(0)};
   dip.ok = std::isfinite(cost) && p(1) > 0.0 && std::abs(p(2)) <= kFarthestCentre &&
-            p(3) >= kNarrowest && p(3) <= kWidest;
+           p(3) >= kNarrowest && p(3) <= kWidest;
   return dip;
 }
 

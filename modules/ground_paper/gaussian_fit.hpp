@@ -1,7 +1,8 @@
-/// A Gaussian dip fitted to a slice through a cost: f(x) = offset - depth exp(-(x - centre)^2 / (2
+/// Fits a Gaussian dip to a slice through a cost: f(x) = offset - depth exp(-(x - centre)^2 / (2
 /// width^2)).
 ///
-/// Its width is the belief of Song and Chandraker's model A: how sharply the cost tells x.
+/// Its width is the confidence of Song and Chandraker's models A (CVPR 2014, section 5.1.1): how
+/// sharply the cost determines x.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@ struct Slice {
 };
 
 struct GaussianDip {
-  bool ok = false;  ///< a dip near the slice's middle, wider than the samples' spacing can hide
+  /// There is a dip near the middle of the slice, wide enough to show between the samples.
+  bool ok = false;
   double centre = 0.0;
   double width = 0.0;  ///< sigma, unit of x
   double depth = 0.0;

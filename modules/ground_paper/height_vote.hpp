@@ -1,4 +1,6 @@
-/// HeightVote (8) of the paper: the height of the point that most other points agree with.
+/// The vote of the paper, equation (8): the height of the point on which most other points agree.
+///
+/// Units  the caller's unit of length.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +17,9 @@ struct HeightVote {
 /// @param mu  [1 / unit of height^2]
 [[nodiscard]] HeightVote vote_height(std::span<const double> heights, double mu);
 
-/// The same when the unit is not known: each candidate is judged in the unit in which its own
-/// height is `true_height`. Heights <= 0 do not take part.
+/// The same vote in an unknown unit: each candidate is scored in the unit in which its own height
+/// is `true_height`. Heights <= 0 do not take part.
 [[nodiscard]] HeightVote vote_height_any_unit(std::span<const double> heights, double mu,
-                                        double true_height);
+                                              double true_height);
 
 }  // namespace plumb

@@ -21,7 +21,8 @@ struct PaperFrame {
   double metres_per_vo = 0;  ///< scale that the cues' heights refer to
 };
 
-/// Fills everything but the cues. `filter` is null before it has started; h* is the camera's height.
+/// Fills everything but the cues. `filter` is null before it has started; h* is the camera's
+/// height.
 void write_plane(const PlaneKalman* filter, const PaperFrame& frame, double camera_height_m,
                  PlaneOutput* plane);
 

@@ -3,7 +3,7 @@
 namespace plumb {
 namespace {
 
-// A match that the motion does not explain is no road point.
+// A match that the motion does not explain is not a road point.
 constexpr double kLargestMissPx = 1.5;
 constexpr std::size_t kLeastVoters = 4;
 constexpr double kLeastStartScore = 4.0;

@@ -43,7 +43,8 @@ struct Rehearsal {
     vo.scale_carry_std = carry_std;
     return step(vo, k);
   }
-  const GroundOutput& step(const VoOutput& vo, int k, std::span<const ObjectsMeasurement> objects = {}) {
+  const GroundOutput& step(const VoOutput& vo, int k,
+                           std::span<const ObjectsMeasurement> objects = {}) {
     GroundInput input;
     input.vo = &vo;
     input.objects = objects;
@@ -99,8 +100,8 @@ double pitch_error(bool with_objects, double bias, CueStatus* last_status) {
     run.with_images = k < 6;
     const double n3 = test::plane_in(footage().poses[static_cast<std::size_t>(k)]).normal_cam.z();
     const ObjectsMeasurement objects{n3 + bias, 1e-6, 1e-6, 1.0};
-    const GroundOutput& out =
-        run.step(vo, k, with_objects ? std::span{&objects, 1} : std::span<const ObjectsMeasurement>{});
+    const GroundOutput& out = run.step(
+        vo, k, with_objects ? std::span{&objects, 1} : std::span<const ObjectsMeasurement>{});
     *last_status = out.plane.cues[kCueObjects].status;
     if (k >= 10) sum += (out.plane.normal_cam.z() - n3) * (out.plane.normal_cam.z() - n3);
   }

@@ -1,4 +1,5 @@
-/// Model files: the shipped one is the built-in one; what does not fit is refused. Features, bounds, covariances.
+/// Model files: the shipped one is the built-in one; what does not fit is refused. Features,
+/// bounds, covariances.
 #include "modules/chain/model_file_source.hpp"
 #include "plumb_paths.hpp"
 

@@ -26,7 +26,7 @@ TEST(ObjectsPitch, FindsThePitchOfARoadWithCarsOfKnownHeight) {
     ObjectsPitch cue(DetectionsConfig{}, kSceneCamera);
     const DetectionFrame frame = test::seen(six_cars(), test::road(pitch_deg * kDegree));
     const ObjectsPitchOutput& output = cue.update(input_of(frame));
-    ASSERT_EQ(output.status, ObjectsPitchStatus::kHolds);
+    ASSERT_EQ(output.status, ObjectsPitchStatus::kValid);
     EXPECT_EQ(output.num_used, 6);
     EXPECT_NEAR(output.n3, std::sin(pitch_deg * kDegree), 0.02 * kDegree);
     EXPECT_GT(output.quality, 0.9);
@@ -78,7 +78,7 @@ TEST(ObjectsPitch, TwoBadBoxesOfSixDoNotDragThePlane) {
       frame.detections[bad].box.bottom_px += shift_px;
     }
     const ObjectsPitchOutput& output = cue.update(input_of(frame));
-    ASSERT_EQ(output.status, ObjectsPitchStatus::kHolds) << shift_px;
+    ASSERT_EQ(output.status, ObjectsPitchStatus::kValid) << shift_px;
     EXPECT_NEAR(output.n3, std::sin(0.3 * kDegree), 0.3 * kDegree) << shift_px;
   }
 }
@@ -117,7 +117,7 @@ TEST(ObjectsPitch, KeepsTheHeightsThatWereMeasuredUnderAKnownPitch) {
   for (int k = 0; k < 20; ++k) {
     const DetectionFrame frame = test::seen(cars, test::road(0.0), 100'000 * k);
     ObjectsPitchInput input = input_of(frame);
-    input.other_holds = true;
+    input.has_other = true;
     input.other_var_rad2 = std::pow(0.1 * kDegree, 2);
     const double error = std::abs(cue.update(input).n3);
     if (k == 0) first_error = error;
@@ -172,7 +172,7 @@ TEST(ObjectsPitch, DeviationsAreHonestOverManyScenes) {
     test::shake(&frame, 1.5, &random);
     ObjectsPitch cue(DetectionsConfig{}, kSceneCamera);
     const ObjectsPitchOutput& output = cue.update(input_of(frame));
-    ASSERT_EQ(output.status, ObjectsPitchStatus::kHolds);
+    ASSERT_EQ(output.status, ObjectsPitchStatus::kValid);
     sum += std::pow(output.n3 - std::sin(pitch), 2) / output.n3_var;
   }
   EXPECT_GT(sum / kTrials, 0.4);  // the configured edge noise and common bias are larger than here
@@ -197,7 +197,7 @@ TEST(ObjectsPitch, ForgetsEverythingWhenTimeRunsBackwards) {
   for (int k = 10; k < 30; ++k) {
     const DetectionFrame frame = test::seen(cars, test::road(0.0), 100'000 * k);
     ObjectsPitchInput input = input_of(frame);
-    input.other_holds = true;
+    input.has_other = true;
     input.other_var_rad2 = 1e-7;
     cue.update(input);
   }

@@ -38,7 +38,7 @@ class ObjectsQueueTest : public testing::Test {
 
   /// Image `seq`, for which the camera has pitched by `nose_down_rad` since the one before.
   std::span<const ObjectsMeasurement> image(std::int64_t seq, double nose_down_rad = 0.0,
-                                      VoStatus status = VoStatus::kOk) {
+                                            VoStatus status = VoStatus::kOk) {
     VoOutput vo;
     vo.seq = seq;
     vo.prev_seq = seq - 1;

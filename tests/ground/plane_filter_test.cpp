@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/se3.hpp"
+#include "tests/ground/plane_observations.hpp"
 #include "tests/support/central_difference.hpp"
 
 namespace plumb {
@@ -15,41 +16,9 @@ namespace {
 
 constexpr double kStepRatio = 0.6;
 
-PlaneObservation plane_at(const Eigen::Vector3d& state, const Eigen::Matrix3d& cov) {
-  PlaneObservation observation;
-  observation.function = observe_plane;
-  observation.value = state;
-  observation.cov = cov;
-  return observation;
-}
-
-PlaneObservation point_at(const Eigen::Vector3d& centre, double var) {
-  PlaneObservation observation;
-  observation.function = observe_point;
-  observation.value = centre;
-  observation.cov(0, 0) = var;
-  observation.first_component = 2;
-  return observation;
-}
-
-PlaneObservation pitch_of_road(double n3, double var) {
-  PlaneObservation observation;
-  observation.function = observe_pitch;
-  observation.value(0) = n3;
-  observation.cov(0, 0) = var;
-  observation.first_component = 1;
-  return observation;
-}
-
-PlaneObservation path_along(const Eigen::Vector3d& direction, double var) {
-  PlaneObservation observation;
-  observation.function = observe_direction;
-  observation.value = direction;
-  observation.cov(0, 0) = var;
-  observation.road = RoadPart::kUnderCar;
-  observation.gated = false;
-  return observation;
-}
+using test::path_along;
+using test::plane_at;
+using test::point_at;
 
 PlaneFilter started(double ln_height) {
   PlaneFilter filter;
@@ -156,7 +125,8 @@ TEST(PlaneFilter, PointsTellHeightOnlyAsWellAsTheTiltIsKnown) {
   PlaneFilter filter = started(0.0);
   const double var_before = filter.cov()(2, 2);
   // Ten heights ahead, half a degree of tilt moves the height by nine per cent.
-  ASSERT_TRUE(filter.fuse(point_at(filter.normal() + Eigen::Vector3d(0.0, 0.0, 10.0), 1e-6)).accepted);
+  ASSERT_TRUE(
+      filter.fuse(point_at(filter.normal() + Eigen::Vector3d(0.0, 0.0, 10.0), 1e-6)).accepted);
   EXPECT_GT(filter.cov()(2, 2), 0.5 * var_before);
   EXPECT_GT(std::abs(filter.cov()(1, 2)), 0.0);
 }
@@ -265,9 +235,9 @@ TEST(PlaneFilter, DeviationsMatchTheErrorsOfARoadThatBends) {
       filter.predict(Eigen::Matrix3d::Identity(), kStepRatio);
       const double slope = truth(1) + 0.003 * normal(random);
       filter.fuse(path_along(Eigen::Vector3d(0.0, -slope, 1.0).normalized(), 0.003 * 0.003));
-      const Eigen::Vector3d seen = ahead + Eigen::Vector3d(0.007 * normal(random),
-                                                           0.007 * normal(random),
-                                                           0.03 * normal(random));
+      const Eigen::Vector3d seen =
+          ahead +
+          Eigen::Vector3d(0.007 * normal(random), 0.007 * normal(random), 0.03 * normal(random));
       ASSERT_TRUE(filter.fuse(plane_at(seen, plane_cov())).accepted);
       filter.end_frame(true, false);
       if (k < 20) continue;
@@ -282,127 +252,6 @@ TEST(PlaneFilter, DeviationsMatchTheErrorsOfARoadThatBends) {
   EXPECT_LT(ahead_sum / num, 1.5);
   EXPECT_GT(here_sum / num, 0.7);
   EXPECT_LT(here_sum / num, 1.5);
-}
-
-/// A filter whose first covariance is known by hand: n = (0, 1, 0), ln h = 0, P = diag(1, 1, 4) 1e-4.
-PlaneFilter hand_calculated(FilterConfig config = {}) {
-  config.start_tilt_std_rad = 0.01;
-  config.start_ln_height_std = 0.02;
-  PlaneFilter filter({}, config);
-  filter.start(Eigen::Vector3d::UnitY(), 0.0);
-  return filter;
-}
-
-TEST(PlaneFilterFuse, GivesInnovationAndTestRatioOfAScalar) {
-  PlaneFilter filter = hand_calculated();
-  // y = 0.04 - 0, S = 1e-4 + 3e-4 = 4e-4, e^2 = 16e-4 / 4e-4 = 4, gate 16.
-  const FuseResult result = filter.fuse(pitch_of_road(0.04, 3e-4));
-  EXPECT_TRUE(result.accepted);
-  EXPECT_DOUBLE_EQ(result.innovation(1), 0.04);
-  EXPECT_TRUE(std::isnan(result.innovation(0)));
-  EXPECT_TRUE(std::isnan(result.innovation(2)));
-  EXPECT_NEAR(result.test_ratio, 0.25, 1e-12);
-  // Student-t with nu = 4: R grows by (4 + 4) / 5, so K = 1e-4 / (1e-4 + 4.8e-4).
-  EXPECT_NEAR(filter.state()(1), 0.04 / 5.8, 1e-12);
-  EXPECT_NEAR(filter.cov()(1, 1), 1e-4 * 4.8 / 5.8, 1e-15);
-}
-
-TEST(PlaneFilterFuse, GivesInnovationAndTestRatioOfAPlane) {
-  PlaneFilter filter = hand_calculated();
-  const Eigen::Matrix3d R = Eigen::Vector3d(3e-4, 3e-4, 5e-4).asDiagonal();
-  // S = diag(4, 4, 9) 1e-4; y = (0.02, 0.04, 0.03): e^2 = (1 + 4 + 1) / 3 = 2, gate 8.
-  const FuseResult result = filter.fuse(plane_at({0.02, 0.04, 0.03}, R));
-  EXPECT_TRUE(result.accepted);
-  EXPECT_TRUE(result.innovation.isApprox(Eigen::Vector3d(0.02, 0.04, 0.03), 1e-12));
-  EXPECT_NEAR(result.test_ratio, 0.25, 1e-12);
-  // R grows by (4 + 2) / 5.
-  EXPECT_NEAR(filter.state()(0), 0.02 * 1.0 / (1.0 + 3.6), 1e-12);
-  EXPECT_NEAR(filter.state()(2), 0.03 * 4.0 / (4.0 + 6.0), 1e-12);
-}
-
-TEST(PlaneFilterFuse, RejectsBeyondTheGateAndChangesNothing) {
-  PlaneFilter filter = hand_calculated();
-  const Eigen::Matrix3d before = filter.cov();
-  // e^2 = 0.09^2 / 4e-4 = 20.25 against 16.
-  const FuseResult result = filter.fuse(pitch_of_road(0.09, 3e-4));
-  EXPECT_FALSE(result.accepted);
-  EXPECT_NEAR(result.test_ratio, 20.25 / 16.0, 1e-12);
-  EXPECT_DOUBLE_EQ(result.innovation(1), 0.09);
-  EXPECT_EQ(filter.state()(1), 0.0);
-  EXPECT_EQ(filter.cov(), before);
-  FilterConfig wide;
-  wide.scalar_gate = 25.0;
-  PlaneFilter lenient = hand_calculated(wide);
-  EXPECT_TRUE(lenient.fuse(pitch_of_road(0.09, 3e-4)).accepted);
-}
-
-TEST(PlaneFilterFuse, UngatedObservationsHaveNoTestRatio) {
-  PlaneFilter filter = hand_calculated();
-  const FuseResult result = filter.fuse(filter.level_roll());
-  EXPECT_TRUE(result.accepted);
-  EXPECT_TRUE(std::isnan(result.test_ratio));
-}
-
-TEST(PlaneFilterFuse, APointAboveTheCameraIsNoRoad) {
-  PlaneFilter filter = hand_calculated();
-  const FuseResult result = filter.fuse(point_at({0.0, -1.0, 10.0}, 1e-4));
-  EXPECT_FALSE(result.accepted);
-  EXPECT_TRUE(std::isnan(result.test_ratio));
-  EXPECT_EQ(filter.state()(2), 0.0);
-}
-
-TEST(PlaneFilterFuse, MeasurementFunctionsHaveTheJacobiansOfTheirInnovations) {
-  const Eigen::Vector3d plane(0.05, -0.08, 0.4);
-  const struct {
-    MeasurementFunction function;
-    Eigen::Vector3d value;
-  } cases[] = {{observe_plane, {0.1, 0.2, 0.3}},
-               {observe_point, {1.0, 1.6, 12.0}},
-               {observe_pitch, {0.02, 0.0, 0.0}},
-               {observe_direction, Eigen::Vector3d(0.05, 0.02, 1.0).normalized()},
-               {observe_level, {0.0, 0.0, 0.0}}};
-  for (const auto& one : cases) {
-    const auto innovation = [&](const Eigen::Vector3d& x) {
-      return Eigen::Vector3d(one.function(one.value, x).innovation);
-    };
-    const Eigen::Matrix3d expected = -test::central_difference<3, 3>(innovation, plane, 1e-6);
-    EXPECT_LT((one.function(one.value, plane).jacobian - expected).norm(), 1e-7);
-  }
-}
-
-TEST(PlaneFilterSettings, ProcessNoiseAndStartValuesTakeEffect) {
-  FilterConfig config;
-  config.turn_noise_rad = 0.0;
-  config.curvature_noise_rad = 0.01;
-  config.scale_drift_std = 0.05;
-  config.turn_scale_drift_std = 0.0;
-  PlaneFilter filter = hand_calculated(config);
-  filter.predict(Eigen::Matrix3d::Identity(), 0.6);  // one reference step, straight on
-  EXPECT_NEAR(filter.cov()(1, 1), 1e-4 + 1e-4, 1e-12);
-  EXPECT_NEAR(filter.cov()(2, 2), 4e-4 + 25e-4, 1e-12);
-}
-
-TEST(PlaneFilterSettings, ConvergenceAndLockOutAreConfigured) {
-  FilterConfig config;
-  config.converged_ln_std = 0.01;
-  EXPECT_FALSE(hand_calculated(config).converged());
-  config.converged_ln_std = 0.03;
-  config.lock_out_frames = 2;
-  config.lock_out_ln_std = 0.5;
-  PlaneFilter filter = hand_calculated(config);
-  EXPECT_TRUE(filter.converged());
-  filter.end_frame(false, true);
-  EXPECT_NEAR(filter.ln_height_std(), 0.02, 1e-12);
-  filter.end_frame(false, true);
-  EXPECT_NEAR(filter.cov()(2, 2), 4e-4 + 0.25, 1e-12);
-}
-
-TEST(PlaneFilterSettings, LevelRollHoldsAsTightlyAsConfigured) {
-  FilterConfig config;
-  config.level_roll_std_rad = 0.01;
-  PlaneFilter filter = hand_calculated(config);
-  filter.fuse(filter.level_roll());
-  EXPECT_NEAR(filter.cov()(0, 0), 0.5e-4, 1e-12);
 }
 
 }  // namespace

@@ -131,8 +131,8 @@ TEST(GroundWire, TakesMoreOrFewerCuesThanThisProgramKnows) {
   EXPECT_STREQ(from_wire(plane, ego, &read), "ground plane: unknown cue status");
 }
 
-/// "const int8_t CUE_DENSE = 0;" lines of ground_plane_t.lcm, in order: the message names its cues as
-/// kCueTable does.
+/// "const int8_t CUE_DENSE = 0;" lines of ground_plane_t.lcm, in order: the message names its cues
+/// as kCueTable does.
 TEST(GroundWire, TheMessageNamesTheCuesOfTheTable) {
   std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/lcmtypes/ground_plane_t.lcm");
   ASSERT_TRUE(file.good());

@@ -1,4 +1,5 @@
-// The nodes of vo and ground: calibration rules, what is refused, and how motions find their images.
+// The nodes of vo and ground: calibration rules, what is refused, and how motions find their
+// images.
 #include <gtest/gtest.h>
 
 #include <cstring>

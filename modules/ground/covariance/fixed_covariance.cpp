@@ -27,7 +27,8 @@ constexpr RoadBend kRoadBend{0.3 * kDegree, 8.0, 2.5};
 constexpr double kFullCorrelation = 0.8;
 // Images nearer to each other than this show the same road, with the same errors.
 constexpr double kIndependentStepRatio = 0.6;
-// Errors of the boxes stay correlated from image to image, as the objects' heights and their road do.
+// Errors of the boxes stay correlated from image to image, as the objects' heights and their road
+// do.
 constexpr double kObjectsCorrelatedImages = 10.0;
 
 double correlated_images(const CueContext& context) {

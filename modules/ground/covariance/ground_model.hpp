@@ -1,9 +1,9 @@
 /// The trained model of the cues: it predicts the variance of each cue's error from features of the
 /// frame.
 ///
-/// A variance is exp(ln_var + sum of slope times feature), kept between two bounds. All features are
-/// zero in a usual frame (straight on, one step of half a camera height, images that agree well), so
-/// ln_var belongs to the usual frame.
+/// A variance is exp(ln_var + sum of slope times feature), kept between two bounds. All features
+/// are zero in a usual frame (straight on, one step of half a camera height, images that agree
+/// well), so ln_var belongs to the usual frame.
 ///
 /// Units  of the state (n1, n3, ln h).
 #pragma once
@@ -82,7 +82,8 @@ struct GroundModel {
   LogVariance points;        ///< of ln h once the normal is known
   LogVariance chord;         ///< of n . direction, n of the road under the car
   RoadBend bend;
-  /// Distance travelled, in camera heights, over which a cue's errors of the height stay correlated.
+  /// Distance travelled, in camera heights, over which a cue's errors of the height stay
+  /// correlated.
   double dense_correlation_length_ratio = 0.0;
   double points_correlation_length_ratio = 0.0;
   double objects_correlated_images = 1.0;  ///< images that share one error of the objects' n3

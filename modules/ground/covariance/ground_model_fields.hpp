@@ -1,4 +1,5 @@
-/// The one list of a model file's numbers: key, member, range and meaning. Part of ground_model.hpp.
+/// The one list of a model file's numbers: key, member, range and meaning. Part of
+/// ground_model.hpp.
 ///
 /// The keys are an interface and older than the names of the members: [travel] is the direction of
 /// translation over a chord, [memory] holds correlation lengths.
@@ -70,27 +71,30 @@ void GroundModel::visit(Model& m, Visit&& field) {
   visit_log_variance("travel",
                      "ln variance of normal . direction of translation under the car, usual frame",
                      kChordSlopes, m.chord, field);
-  field(
-      "bend.start_std", m.bend.start_std, 0.0, 0.2,
-      "1-sigma of the angle between the road ahead and the one under the car, at the start of a drive");
+  field("bend.start_std", m.bend.start_std, 0.0, 0.2,
+        "1-sigma of the angle between the road ahead and the one under the car, at the start of a "
+        "drive");
   field("bend.memory_ratio", m.bend.correlation_length_ratio, 0.1, 1000.0,
         "camera heights travelled over which a bend stays correlated");
   field("bend.height_slope", m.bend.height_slope, 0.0, 10.0,
         "ln height of the plane ahead per unit of that angle");
   field("memory.dense_ratio", m.dense_correlation_length_ratio, 0.0, 1000.0,
         "camera heights travelled over which the dense cue's errors stay correlated");
-  field("memory.points_ratio", m.points_correlation_length_ratio, 0.0, 1000.0, "the same for the points cue");
+  field("memory.points_ratio", m.points_correlation_length_ratio, 0.0, 1000.0,
+        "the same for the points cue");
   field("memory.objects_images", m.objects_correlated_images, 1.0, 1000.0,
         "images that share one error of the detected objects' pitch");
   visit_log_variance("plane_pitch",
-                     "ln variance of reported pitch on top of the filter's, usual frame", kPlaneSlopes,
-                     m.plane_pitch, field);
-  visit_log_variance("plane_roll", "ln variance of reported roll on top of the filter's, usual frame",
+                     "ln variance of reported pitch on top of the filter's, usual frame",
+                     kPlaneSlopes, m.plane_pitch, field);
+  visit_log_variance("plane_roll",
+                     "ln variance of reported roll on top of the filter's, usual frame",
                      kRollSlopes, m.plane_roll, field);
   visit_log_variance("plane_height",
-                     "ln variance of reported ln h on top of the filter's, usual frame", kPlaneSlopes,
-                     m.plane_height, field);
-  field("bias.ln_scale_std", m.ln_scale_bias_std, 0.0, 0.5, "1-sigma of the part of ln scale that is the same in a whole drive");
+                     "ln variance of reported ln h on top of the filter's, usual frame",
+                     kPlaneSlopes, m.plane_height, field);
+  field("bias.ln_scale_std", m.ln_scale_bias_std, 0.0, 0.5,
+        "1-sigma of the part of ln scale that is the same in a whole drive");
   LinearVariance::visit("objects_n3", m.objects_n3, field);
 }
 

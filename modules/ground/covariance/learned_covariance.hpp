@@ -1,7 +1,7 @@
 /// Covariances that a trained model predicts for each frame.
 ///
-/// The model gives the variances of n1 and n3, and of ln h given the normal. How ln h depends on the
-/// normal follows from the frame's own pixels; together they make the dense cue's covariance.
+/// The model gives the variances of n1 and n3, and of ln h given the normal. How ln h depends on
+/// the normal follows from the frame's own pixels; together they make the dense cue's covariance.
 ///
 /// Memory  none.
 #pragma once
@@ -35,9 +35,9 @@ class LearnedCovariance final : public CueCovariance {
   GroundModel model_;
 };
 
-/// Sum of the correlations e^(-k step / length) over all integers k: the number of images that share
-/// one independent error, for errors that stay correlated over `correlation_length_ratio` camera
-/// heights travelled.
+/// Sum of the correlations e^(-k step / length) over all integers k: the number of images that
+/// share one independent error, for errors that stay correlated over `correlation_length_ratio`
+/// camera heights travelled.
 [[nodiscard]] double correlated_images(double correlation_length_ratio, double step_ratio);
 
 }  // namespace plumb

@@ -5,8 +5,8 @@
 namespace plumb {
 namespace {
 
-// Long enough to average heave and pose noise, short enough to follow the pitch: half a second at 10
-// frames/s.
+// Long enough to average heave and pose noise, short enough to follow the pitch: half a second at
+// 10 frames/s.
 constexpr int kChordFrames = 5;
 
 constexpr double kShortestChord = 1e-9;

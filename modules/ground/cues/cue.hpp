@@ -50,7 +50,8 @@ struct Observation {
   /// filter; else NaN.
   double start_ln_height = kNan;
   /// The prior for the cues after this one. A cue that finds the road before the filter has
-  /// converged passes on the height that it found; all others return the prior that they were given.
+  /// converged passes on the height that it found; all others return the prior that they were
+  /// given.
   FramePrior prior;
 };
 

@@ -24,8 +24,8 @@ constexpr int kSweepPixels = 1024;
 
 constexpr int kMinPixels = 200;
 constexpr int kMaxIterations = 8;
-constexpr double kConvergedStep = 1e-4;   // |dq| / |q|
-constexpr double kLargestStep = 0.2;  // |dq| / |q|
+constexpr double kConvergedStep = 1e-4;  // |dq| / |q|
+constexpr double kLargestStep = 0.2;     // |dq| / |q|
 constexpr double kStartSigmaGrey = 12.0;
 constexpr double kSmallestSigmaGrey = 1.5;
 constexpr double kNormalPriorStd = 1.5 * kDegree;
@@ -77,7 +77,7 @@ DenseAlignment::DenseAlignment(const CameraModel& ring_camera, int num_levels)
     : camera_(ring_camera), num_levels_(num_levels) {}
 
 DenseMeasurement DenseAlignment::measure(const Pyramid& now, const ImagePairs& pairs,
-                                   const DenseRequest& request) {
+                                         const DenseRequest& request) {
   DenseMeasurement out;
   Solution solution;
   const double height = sweep(now, pairs, request);
@@ -99,7 +99,8 @@ DenseMeasurement DenseAlignment::measure(const Pyramid& now, const ImagePairs& p
 
 /// Returns the height with the smallest mean difference along the expected normal; 0 when too
 /// little road is visible.
-double DenseAlignment::sweep(const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request) {
+double DenseAlignment::sweep(const Pyramid& now, const ImagePairs& pairs,
+                             const DenseRequest& request) {
   const int level = std::min(kSweepLevel, num_levels_ - 1);
   const LevelCamera camera = camera_of_level(camera_, level);
   const Eigen::Vector3d q = request.normal_cam / request.height;
@@ -127,7 +128,7 @@ double DenseAlignment::sweep(const Pyramid& now, const ImagePairs& pairs, const 
 }
 
 bool DenseAlignment::Solution::linearise(const std::array<PairSums, kMaxImagePairs>& sums,
-                                   std::size_t num_pairs, ParamMatrix* H, ParamVector* b) {
+                                         std::size_t num_pairs, ParamMatrix* H, ParamVector* b) {
   H->setIdentity();
   b->setZero();
   H->topLeftCorner<3, 3>().setZero();
@@ -161,7 +162,7 @@ bool DenseAlignment::Solution::linearise(const std::array<PairSums, kMaxImagePai
 }
 
 void DenseAlignment::Solution::add_normal_prior(const Eigen::Vector3d& normal, ParamMatrix* H,
-                                          ParamVector* b) const {
+                                                ParamVector* b) const {
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - normal * normal.transpose();
   const double weight = sigma_grey * sigma_grey * kPixelsPerIndependent /
                         (kNormalPriorStd * kNormalPriorStd * q.squaredNorm());
@@ -170,7 +171,7 @@ void DenseAlignment::Solution::add_normal_prior(const Eigen::Vector3d& normal, P
 }
 
 bool DenseAlignment::refine(int level, const Pyramid& now, const ImagePairs& pairs,
-                      const DenseRequest& request, Solution* solution) {
+                            const DenseRequest& request, Solution* solution) {
   const LevelCamera camera = camera_of_level(camera_, level);
   select_road_pixels(level_of(now, level), camera, request.road, solution->q, kMaxRoadPixels,
                      &pixels_);

@@ -1,8 +1,8 @@
 /// Dense alignment: the plane q = n/h that makes the road of this image agree with one or two older
 /// images.
 ///
-/// A sweep over heights finds the basin of the right minimum. Then Gauss-Newton refines q, with gain
-/// and bias for each image pair and Student-t weights, from coarse to fine.
+/// A sweep over heights finds the basin of the right minimum. Then Gauss-Newton refines q, with
+/// gain and bias for each image pair and Student-t weights, from coarse to fine.
 ///
 /// Frames  cam of the newest image.
 /// Units   [vo], grey levels.

@@ -46,8 +46,7 @@ Observation DenseCue::measure(const CueFrame& frame, const FramePrior& prior) {
   FramePrior next = prior;
   const Attempt attempt = prior.measurable ? align(frame, prior) : Attempt{};
   last_ = attempt.dense;
-  const double least =
-      prior.converged ? config_.least_dense_quality : config_.start_dense_quality;
+  const double least = prior.converged ? config_.least_dense_quality : config_.start_dense_quality;
   const bool good = last_.ok && covariance_.dense_quality(last_) >= least;
   if (prior.converged || good) {
     if (good && !prior.converged) next.height = 1.0 / last_.q.norm();
@@ -55,7 +54,8 @@ Observation DenseCue::measure(const CueFrame& frame, const FramePrior& prior) {
     return observed(prior, next, good ? CueStatus::kUsed : failed);
   }
   const DenseMeasurement found = search(frame, prior);
-  if (!found.ok) return observed(prior, next, attempt.looked ? CueStatus::kFailed : CueStatus::kAbsent);
+  if (!found.ok)
+    return observed(prior, next, attempt.looked ? CueStatus::kFailed : CueStatus::kAbsent);
   last_ = found;
   next.height = 1.0 / found.q.norm();
   next.context = {std::abs(frame.chord.curvature) * next.height, frame.chord.step / next.height};
@@ -107,8 +107,7 @@ Observation DenseCue::observed(const FramePrior& prior, const FramePrior& next, 
   if (status != CueStatus::kUsed) return out;
   out.plane.function = observe_plane;
   out.plane.value = state;
-  out.plane.cov =
-      with_correlated_height(cov, covariance_.dense_correlated_images(prior.context));
+  out.plane.cov = with_correlated_height(cov, covariance_.dense_correlated_images(prior.context));
   out.start_ln_height = std::log(height_given_normal(last_, prior.normal_cam));
   return out;
 }

@@ -65,7 +65,7 @@ struct WarpedRays {
 
 /// @param reach_px  pixels that the sampling needs on each side of the 2x2 around the warped ray
 inline void warp_rays(const Homography& h, const LevelCamera& camera, const ImageView& image,
-                 const Float8& x, const Float8& y, int reach_px, WarpedRays* out) {
+                      const Float8& x, const Float8& y, int reach_px, WarpedRays* out) {
   constexpr float kNearestDepth = 0.1F;
   constexpr int kRowIterations = 2;
   Float8 depth = times_ray(h.g[2], x, y);

@@ -1,8 +1,8 @@
 /// Ring of the last images as pyramids, found by their sequence numbers.
 ///
 /// It keeps only rows that can show road: from a little above the horizon of a level camera to the
-/// bottom. `camera()` is the model of these rows, and every pixel coordinate of the dense cue refers
-/// to it.
+/// bottom. `camera()` is the model of these rows, and every pixel coordinate of the dense cue
+/// refers to it.
 ///
 /// Memory  kCapacity pyramids, sized at construction.
 #pragma once

@@ -9,7 +9,7 @@
 namespace plumb {
 namespace {
 
-constexpr std::int64_t kForget_us = 2'000'000;
+constexpr std::int64_t kLongestGap_us = 2'000'000;
 constexpr double kLogHeightRateStd = 0.01;  ///< [1/sqrt(s)]
 constexpr double kMostHeightSigmas = 3.0;   ///< from the class's mean, for a track
 constexpr double kMostDisagreement = 2.5;   ///< smoothed over frames, in sigmas
@@ -26,7 +26,7 @@ HeightFilter::Prior filter_prior(const DetectionsConfig& config) {
   return {config.mean_pitch_rad, config.pitch_std_rad, config.pitch_time_s, kLogHeightRateStd};
 }
 
-/// Boxes of a detector that does not track keep nothing; any number below -1 is theirs.
+/// Boxes of a detector that does not track get numbers below -1, which no track has.
 std::int32_t track_or_own_id(const Detection& detection, std::size_t index) {
   return detection.track_id >= 0 ? detection.track_id : -2 - static_cast<std::int32_t>(index);
 }
@@ -48,13 +48,14 @@ const ObjectsPitchOutput& ObjectsPitch::update(const ObjectsPitchInput& input) {
 
 void ObjectsPitch::begin(std::int64_t capture_us) {
   const std::int64_t gap_us = capture_us - last_us_;
-  if (!started_ || gap_us < 0 || gap_us > kForget_us) {
+  if (!started_ || gap_us < 0 || gap_us > kLongestGap_us) {
     filter_ = HeightFilter(filter_prior(config_));
     disagreement_.fill(0.0);
   }
   filter_.predict(
-      started_ ? 1e-6 * static_cast<double>(std::clamp<std::int64_t>(gap_us, 0, kForget_us)) : 0.0);
-  filter_.forget_before(capture_us - kForget_us);
+      started_ ? 1e-6 * static_cast<double>(std::clamp<std::int64_t>(gap_us, 0, kLongestGap_us))
+               : 0.0);
+  filter_.drop_before(capture_us - kLongestGap_us);
   started_ = true;
   last_us_ = capture_us;
   output_ = {};
@@ -88,8 +89,8 @@ void ObjectsPitch::read_boxes(const ObjectsPitchInput& input) {
     const double sigmas =
         (filter_.log_height(place.slot) - std::log(prior.mean_m)) * prior.mean_m / prior.std_m;
     if (std::abs(sigmas) > kMostHeightSigmas) {
-      // It cannot stand on this road. Begin its height anew and let it regain trust.
-      filter_.restart(place.slot, std::log(prior.mean_m), square(prior.std_m / prior.mean_m));
+      // It cannot stand on this road: reset its height and let it agree with the others again.
+      filter_.reset_height(place.slot, std::log(prior.mean_m), square(prior.std_m / prior.mean_m));
       disagreement_[place.slot] = std::copysign(kMostSigmas, sigmas);
     }
     Reading reading;
@@ -111,7 +112,7 @@ bool ObjectsPitch::read_box(const ObjectsPitchInput& input, Reading* reading) {
   reading->J_height = pitch->J_log_ratio;
 
   const double edge_var = edge_var_px2(*input.frame, reading->index);
-  // What hides the lower edge moves it up by up to that share of the height.
+  // Whatever hides the lower edge moves it up by up to that share of the height.
   const double hidden = hidden_edges(*input.frame, reading->index).lower_ratio;
   const double foot_var = edge_var + square(kHiddenFootStd * hidden * box.height_px());
   const double distance_m = std::exp(reading->log_height) * camera_.fy_px / box.height_px();
@@ -148,8 +149,8 @@ void ObjectsPitch::add_to_mixture(const Detection& detection) {
 bool ObjectsPitch::fit_candidates(const DetectionFrame& frame, std::size_t index) {
   const Detection& detection = frame.detections[index];
   if (detection.candidates.size() < kLeastCandidates) return false;
-  // The neighbour that shares most candidates with it takes part; more than one would cost more
-  // time than a frame has.
+  // The fit includes the neighbour that shares most candidates. More than one neighbour would cost
+  // more time than a frame has.
   std::size_t neighbour = index;
   double most_overlap = kLeastOverlap;
   for (std::size_t i = 0; i < frame.detections.size(); ++i) {
@@ -175,7 +176,7 @@ void ObjectsPitch::judge(const ObjectsPitchInput& input) {
   const double prior_std =
       std::sqrt(filter_.slow_pitch_var_rad2() + square(config_.pitch_jitter_std_rad));
   bool room = votes_.push_back({filter_.slow_pitch_rad(), prior_std, 0.0});
-  if (input.other_holds) {
+  if (input.has_other) {
     room = room && votes_.push_back({input.other_pitch_rad, std::sqrt(input.other_var_rad2), 0.0});
   }
   if (!room) return;
@@ -209,10 +210,10 @@ void ObjectsPitch::combine(const ObjectsPitchInput& input) {
   }
   double bias_var = 0.0;
   if (output_.num_used > 0) {
-    // All heights may be off together; that part does not average out.
+    // All heights may be wrong by the same factor; that part does not average out.
     bias_var = square(J_bias / information * config_.height_bias_std_ratio);
     const double cosine = std::cos(filter_.pitch_rad());
-    output_.status = ObjectsPitchStatus::kHolds;
+    output_.status = ObjectsPitchStatus::kValid;
     output_.n3 = std::sin(filter_.pitch_rad());
     output_.n3_var = square(cosine) * (filter_.pitch_var_rad2() + bias_var);
     output_.quality = weight_sum / static_cast<double>(readings_.size());
@@ -221,7 +222,7 @@ void ObjectsPitch::combine(const ObjectsPitchInput& input) {
   }
   const double observed_var = filter_.pitch_var_rad2();
   filter_.tie_to_slow_pitch(square(config_.pitch_jitter_std_rad));
-  if (input.other_holds) filter_.update_pitch(input.other_pitch_rad, input.other_var_rad2);
+  if (input.has_other) filter_.update_pitch(input.other_pitch_rad, input.other_var_rad2);
   output_.pitch_rad = filter_.pitch_rad();
   const double share = filter_.pitch_var_rad2() / observed_var;
   output_.pitch_var_rad2 = filter_.pitch_var_rad2() + square(share) * bias_var;
@@ -230,7 +231,7 @@ void ObjectsPitch::combine(const ObjectsPitchInput& input) {
 void ObjectsPitch::finish(const ObjectsPitchInput& input) {
   for (const Reading& reading : readings_) {
     output_.height_m[reading.index] = std::exp(filter_.log_height(reading.slot));
-    if (input.frame->detections[reading.index].track_id < 0) filter_.forget(reading.slot);
+    if (input.frame->detections[reading.index].track_id < 0) filter_.drop(reading.slot);
   }
 }
 

@@ -1,10 +1,11 @@
-/// What detected objects say about the camera's pitch, and which of them are to be believed.
+/// The camera's pitch from the detected objects of one image, and which of them are consistent with
+/// it.
 ///
-/// Frames   cam, ground and the sign of the pitch as in road_plane.hpp.
-/// Source   Song and Chandraker, CVPR 2014: eq. (9) in closed form, eq. (10) for the belief in a
-/// box.
-///          Beyond it: a track keeps the height that was measured, and boxes are combined robustly.
-/// Memory   heights, votes and one mixture fit in place, 60 kB; nothing grows.
+/// Frames  cam, ground and the sign of the pitch as in road_plane.hpp.
+/// Source  Song and Chandraker, CVPR 2014: equation (9) in closed form, equation (10) for the
+///         confidence in a box. In addition, a track keeps the height that was measured, and boxes
+///         are combined robustly.
+/// Memory  heights, votes and one mixture fit in place, 60 kB; nothing grows.
 #pragma once
 
 #include <array>
@@ -22,32 +23,32 @@ namespace plumb {
 
 struct ObjectsPitchInput {
   const DetectionFrame* frame = nullptr;  ///< never null
-  double height_m = 0.0;                  ///< calibrated; never VO's, which drifts
+  double height_m = 0.0;                  ///< of the camera; never VO's, which drifts
   double height_std_ratio = 0.01;
   double roll_rad = 0.0;
   double roll_std_rad = 0.01;
-  bool other_holds = false;  ///< another cue has measured this frame's pitch:
+  bool has_other = false;  ///< another cue has measured this frame's pitch:
   double other_pitch_rad = 0.0;
   double other_var_rad2 = 0.0;
 };
 
-/// Same numbers as ground_cue_t.status, as far as a cue decides it.
-enum class ObjectsPitchStatus : std::int8_t { kHolds = 0, kAbsent = 1, kFailed = 3 };
+/// Same numbers as ground_cue_t.status, as far as the objects decide it.
+enum class ObjectsPitchStatus : std::int8_t { kValid = 0, kAbsent = 1, kFailed = 3 };
 
 struct ObjectsPitchOutput {
   ObjectsPitchStatus status = ObjectsPitchStatus::kAbsent;
-  // The boxes alone, without any prior on the pitch: an observation to fuse. kHolds only.
+  // From the boxes alone, without any prior of the pitch: an observation to fuse. kValid only.
   double n3 = 0.0;
   double n3_var = 0.0;
   double quality = 0.0;  ///< [0, 1] share of the boxes' weight that agrees
-  // Boxes, the slow pitch, and the other cue's pitch where it holds: an estimate to use. Always.
+  // From the boxes, the slow pitch and the other cue's pitch: an estimate to use. Always valid.
   double pitch_rad = 0.0;
   double pitch_var_rad2 = 0.0;
 
   int num_used = 0;
-  Verdicts verdicts{};                              ///< of every detection of the frame
-  std::array<double, kMaxDetections> height_m{};    ///< present estimate; 0 where there is none
-  std::array<double, kMaxDetections> confidence_px2{};  ///< a_d; 0 where there were no candidates
+  Verdicts verdicts{};                                  ///< of every detection of the frame
+  std::array<double, kMaxDetections> height_m{};        ///< present estimate; 0 where there is none
+  std::array<double, kMaxDetections> confidence_px2{};  ///< the paper's a_d; 0 without candidates
 };
 
 /// One `update` per DETECTIONS message, in order of capture. Deterministic.
@@ -64,11 +65,11 @@ class ObjectsPitch {
   struct Reading {
     std::size_t index = 0;  ///< in the frame
     std::size_t slot = 0;
-    double log_height = 0.0;  ///< that it was read with
+    double log_height = 0.0;  ///< with which it was read
     double pitch_rad = 0.0;
     double J_height = 0.0;  ///< d pitch / d ln height
-    double var_rad2 = 0.0;  ///< of the box, its height taken as known
-    double std_rad = 0.0;   ///< height's deviation included
+    double var_rad2 = 0.0;  ///< from the box, given its height
+    double std_rad = 0.0;   ///< including the height's uncertainty
     double weight = 0.0;    ///< agreement with the others, 0 .. 1
   };
   using Readings = FixedVector<Reading, HeightFilter::kMaxHeights>;

@@ -20,7 +20,7 @@ bool gives_rotation(VoStatus status) {
 }  // namespace
 
 ObjectsQueue::ObjectsQueue(const GroundConfig& config, const DetectionsConfig& detections,
-                         const CameraModel& camera, const LinearVariance& model)
+                           const CameraModel& camera, const LinearVariance& model)
     : delay_(static_cast<std::size_t>(config.detections_delay_images)),
       adapts_(config.covariance != "fixed"),
       model_(model),
@@ -92,11 +92,11 @@ bool ObjectsQueue::measure(const Place& place, const DetectionFrame& frame, doub
   input.height_m = height_m;
   input.roll_rad = place.has_roll ? place.roll_rad : 0.0;
   input.roll_std_rad = place.has_roll ? std::sqrt(place.roll_var_rad2) : kUnknownRollStd;
-  input.other_holds = place.has_pitch;
+  input.has_other = place.has_pitch;
   input.other_pitch_rad = place.pitch_rad;
   input.other_var_rad2 = place.pitch_var_rad2;
   const ObjectsPitchOutput& seen = pitch_.update(input);
-  if (seen.status != ObjectsPitchStatus::kHolds) return false;
+  if (seen.status != ObjectsPitchStatus::kValid) return false;
 
   const double pitch = std::asin(std::clamp(seen.n3, -1.0, 1.0));
   const Eigen::Vector3d normal =
@@ -104,7 +104,7 @@ bool ObjectsQueue::measure(const Place& place, const DetectionFrame& frame, doub
   measured_.n3 = normal.z();
   measured_.confidence = seen.n3_var;
   measured_.n3_var = (adapts_ ? model_.of(seen.n3_var) : model_.mean) +
-                   static_cast<double>(delay_) * square(kTurnStd);
+                     static_cast<double>(delay_) * square(kTurnStd);
   measured_.quality = seen.quality;
   return true;
 }

@@ -1,15 +1,15 @@
 /// Detections that wait for their turn, and the camera's pitch from them, brought to the newest
 /// image: the measurement of the objects cue.
 ///
-/// Delay    Detections of an image are used `ground.detections_delay_images` images after it, however
-///          early they came, so that results depend on the messages and not on the time that a
-///          detector took. Later ones are refused. In between, the pitch turns with the camera by
-///          VO's rotation.
-/// Feedback Objects learn their heights from the dense cue's pitch in their own image, never from the
-///          filter that fuses this cue.
+/// Delay    Detections of an image are used `ground.detections_delay_images` images after it,
+///          however early they came, so that results depend on the messages and not on the time
+///          that a detector took. Later ones are refused. In between, the pitch turns with the
+///          camera by VO's rotation.
+/// Feedback Objects learn their heights from the dense cue's pitch in their own image, never from
+///          the filter that fuses this cue.
 /// Frames   cam, as in road_plane.hpp.
-/// Source   Song and Chandraker, CVPR 2014: equations (9) and (10), see objects_pitch.hpp; model C_d
-///          of Algorithm 1.
+/// Source   Song and Chandraker, CVPR 2014: equations (9) and (10), see objects_pitch.hpp; model
+///          C_d of Algorithm 1.
 /// Memory   kMaxWaiting frames of detections and an ObjectsPitch in place, 500 kB; nothing grows.
 #pragma once
 
@@ -30,12 +30,13 @@ class ObjectsQueue {
 
   /// @pre both configs inside the ranges of their visit()
   ObjectsQueue(const GroundConfig& config, const DetectionsConfig& detections,
-              const CameraModel& camera, const LinearVariance& model);
+               const CameraModel& camera, const LinearVariance& model);
 
-  /// Returns null when taken, else why the frame was refused. When full, the oldest frame is dropped.
+  /// Returns null when taken, else why the frame was refused. When full, the oldest frame is
+  /// dropped.
   [[nodiscard]] const char* take(const DetectionFrame& frame);
-  /// Proceeds to the image of `vo`, taken at `camera_height`. Returns the pitch from its objects, or
-  /// nothing; valid until the next call.
+  /// Proceeds to the image of `vo`, taken at `camera_height`. Returns the pitch from its objects,
+  /// or nothing; valid until the next call.
   std::span<const ObjectsMeasurement> update(const VoOutput& vo, const CameraHeight& camera_height);
   /// Takes the plane that the ground estimator found in that image.
   void note(const PlaneOutput& plane);

@@ -43,7 +43,8 @@ struct RowSample {
   Float8 right;
 };
 
-inline void sample_row(const ImageView& image, const WarpedRays& at, int row_offset, RowSample* out) {
+inline void sample_row(const ImageView& image, const WarpedRays& at, int row_offset,
+                       RowSample* out) {
   Int8 words{};
   gather_row(image, at, row_offset, &words);
   Float8 c0, c1, c2, c3;

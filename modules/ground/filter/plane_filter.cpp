@@ -71,8 +71,8 @@ void PlaneFilter::predict(const Eigen::Matrix3d& R_prev_cam, double step_ratio) 
   predict_bend(step_ratio);
 }
 
-/// The bend's strength is that of this drive so far: on flat drives errors of the cues must not pass
-/// for bends, and on hilly ones bends must not pass for errors.
+/// The bend's strength is that of this drive so far: on flat drives errors of the cues must not
+/// pass for bends, and on hilly ones bends must not pass for errors.
 void PlaneFilter::predict_bend(double step_ratio) {
   if (bend_.start_std <= 0.0) return;
   const double old = std::exp(-step_ratio / config_.bend_strength_ratio);

@@ -9,8 +9,9 @@
 ///   first-order Gauss-Markov process over the distance travelled, as strong as the road's bends
 ///   have lately been.
 ///
-/// Robustness: innovations are taken as Student-t distributed. R grows by (nu + e^2) / (nu + 1) with
-/// e^2 = y^T S^-1 y per degree of freedom, and an observation whose e^2 exceeds its gate is rejected.
+/// Robustness: innovations are taken as Student-t distributed. R grows by (nu + e^2) / (nu + 1)
+/// with e^2 = y^T S^-1 y per degree of freedom, and an observation whose e^2 exceeds its gate is
+/// rejected.
 ///
 /// Frames  cam: x right, y down, z forward; n = (n1, sqrt(1 - n1^2 - n3^2), n3) points down.
 /// Units   h in [vo], angles as sines.
@@ -62,8 +63,8 @@ class PlaneFilter {
   void start(const Eigen::Vector3d& normal, double ln_height);
   /// Returns to the state before start().
   void reset() { started_ = false; }
-  /// VO began a new unit. `ln_ratio_std` is the 1-sigma of ln(old unit / new unit); NaN when nothing
-  /// is known of it, which resets the filter.
+  /// VO began a new unit. `ln_ratio_std` is the 1-sigma of ln(old unit / new unit); NaN when
+  /// nothing is known of it, which resets the filter.
   void change_unit(double ln_ratio_std);
   /// The camera's height over the road changed by this factor, at the same scale.
   void change_height(double ln_ratio);
@@ -77,7 +78,8 @@ class PlaneFilter {
   /// The prior that cars do not lean much against their road.
   [[nodiscard]] PlaneObservation level_roll() const;
 
-  /// Closes a frame: after a run of frames in which every height was rejected, the gate opens again.
+  /// Closes a frame: after a run of frames in which every height was rejected, the gate opens
+  /// again.
   void end_frame(bool any_used, bool any_rejected);
 
  private:

@@ -1,8 +1,9 @@
-/// Statistics of how roads bend upwards and downwards: the plane ahead against the one under the car.
+/// Statistics of how roads bend upwards and downwards: the plane ahead against the one under the
+/// car.
 ///
-/// The cues see the road 5 to 20 m ahead, but the scale depends on the road under the car. On a road
-/// of constant vertical curvature, the angle between the two planes and the difference of their
-/// heights under the camera are both proportional to that curvature.
+/// The cues see the road 5 to 20 m ahead, but the scale depends on the road under the car. On a
+/// road of constant vertical curvature, the angle between the two planes and the difference of
+/// their heights under the camera are both proportional to that curvature.
 ///
 /// Units  sines of angles; distance travelled in camera heights; ln h.
 #pragma once

@@ -106,8 +106,9 @@ void visit_start(Config& c, Visit&& field) {
   field("ground.filter.settled_sweep_ln", c.settled_sweep_ln, 0.01, 1.0,
         "half of the narrow range, in ln height");
   field("ground.filter.wide_sweep_ln", c.wide_sweep_ln, 0.01, 1.0, "half of the wide range");
-  field("ground.filter.agree_ln_height", c.agree_ln_height, 0.001, 0.5,
-        "largest difference of ln height between two results that agree in the search of the start");
+  field(
+      "ground.filter.agree_ln_height", c.agree_ln_height, 0.001, 0.5,
+      "largest difference of ln height between two results that agree in the search of the start");
 }
 
 template <typename Config, typename Visit>

@@ -69,9 +69,9 @@ struct CueReport {
   /// Normalised innovation squared over its gate: above 1 the filter rejected the cue. NaN when the
   /// cue was not tested.
   double test_ratio = kNan;
-  /// What the cue's covariance was predicted from, as its own algorithm defines it; in process only,
-  /// for training and tests. Published method: widths of the slices in h, n1, n3 (dense), score of
-  /// the vote (points). Both methods: the variance by the boxes alone (objects).
+  /// What the cue's covariance was predicted from, as its own algorithm defines it; in process
+  /// only, for training and tests. Published method: widths of the slices in h, n1, n3 (dense),
+  /// score of the vote (points). Both methods: the variance by the boxes alone (objects).
   std::array<double, kMaxCueFeatures> features{};
   int num_features = 0;
 };
@@ -83,7 +83,7 @@ struct GroundInput {
   const VoOutput* vo = nullptr;  ///< never null
   ImageView image;               ///< image of vo->seq; empty when it did not arrive
   std::span<const ObjectsMeasurement> objects = {};  ///< of the same image (objects_queue.hpp)
-  CameraHeight camera_height = {};  ///< height_m 0: as configured or calibrated
+  CameraHeight camera_height = {};                   ///< height_m 0: as configured or calibrated
 };
 
 /// The plane of the road ahead (`GroundConfig::road_near_m` to `road_far_m`).

@@ -72,7 +72,7 @@ class SequenceRun {
     const double prior_std = options_.detections.pitch_std_rad;
     const RoadPlane calibrated = plane(options_.detections.mean_pitch_rad, prior_std * prior_std);
     const RoadPlane from_cue = plane(cue.pitch_rad, cue.pitch_var_rad2);
-    if (cue.status == ObjectsPitchStatus::kHolds) compare_pitch(frame_number, std::asin(cue.n3));
+    if (cue.status == ObjectsPitchStatus::kValid) compare_pitch(frame_number, std::asin(cue.n3));
 
     ObjectsInput input;
     input.frame = &frame;

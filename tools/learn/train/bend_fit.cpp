@@ -54,9 +54,9 @@ std::optional<RoadBend> fit_bend(const std::vector<DriveSamples>& drives) {
   bend.height_slope = product_sum / square_sum;
   for (auto& drive : bends)
     for (TimedError& frame : drive) frame.sigmas /= bend.start_std;
-  bend.correlation_length_ratio =
-      std::max(kLeastCorrelationLengthRatio,
-               correlation_length_of(correlated_images_of(bends), steps / static_cast<double>(num)));
+  bend.correlation_length_ratio = std::max(
+      kLeastCorrelationLengthRatio,
+      correlation_length_of(correlated_images_of(bends), steps / static_cast<double>(num)));
   return bend;
 }
 

@@ -11,9 +11,9 @@
 namespace plumb {
 
 /// Fits the bend's root mean square, its correlation length, and the slope of ln(true over nominal
-/// height) against it. The angle between plane and direction of translation is taken as the bend; the
-/// noise of that direction, about a tenth of it, makes the slope smaller by a hundredth. Null without
-/// enough frames that have a true plane.
+/// height) against it. The angle between plane and direction of translation is taken as the bend;
+/// the noise of that direction, about a tenth of it, makes the slope smaller by a hundredth. Null
+/// without enough frames that have a true plane.
 [[nodiscard]] std::optional<RoadBend> fit_bend(const std::vector<DriveSamples>& drives);
 
 }  // namespace plumb

@@ -57,7 +57,8 @@ void write_dense(const CueDiagnostics& diagnostics, const CueReference& referenc
   sample->dense_err_n3 = state(1) - true_state(reference)(1);
 }
 
-void write_points(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample) {
+void write_points(const CueDiagnostics& diagnostics, const CueReference& reference,
+                  Sample* sample) {
   const PointsMeasurement& points = diagnostics.points;
   const double height = reference.normal_cam.dot(points.centre);
   if (!points.ok || !(height > 0.0)) return;

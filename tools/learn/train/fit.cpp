@@ -52,8 +52,8 @@ double* correlation_length_in(Target target, GroundModel* model) {
   }
 }
 
-/// Drives differ from each other more than the frames within them. On a drive that a fit did not see,
-/// its variances are too small by this factor: the mean over held-out drives of the normalised
+/// Drives differ from each other more than the frames within them. On a drive that a fit did not
+/// see, its variances are too small by this factor: the mean over held-out drives of the normalised
 /// squared error.
 double held_out_factor(Target target, const std::vector<std::vector<TargetRow>>& drives) {
   double sum = 0.0;
@@ -90,7 +90,8 @@ double correlated_images_of(const std::vector<std::vector<TimedError>>& drives) 
   return square > 0.0 ? std::max(1.0, 1.0 + product / square) : 1.0;
 }
 
-double correlated_images_in(const std::vector<std::vector<TargetRow>>& drives, const LogVariance& model) {
+double correlated_images_in(const std::vector<std::vector<TargetRow>>& drives,
+                            const LogVariance& model) {
   std::vector<std::vector<TimedError>> errors(drives.size());
   for (std::size_t i = 0; i < drives.size(); ++i) {
     for (const TargetRow& row : drives[i]) {
@@ -165,7 +166,8 @@ std::vector<ConfidenceFit> fit_paper(const std::vector<DriveSamples>& drives, Pa
     for (const DriveSamples& drive : drives) {
       for (const Sample& s : drive.frames) {
         const Confidence confidence{s.*line.confidence, s.*line.error};
-        if (std::isfinite(confidence.confidence) && std::isfinite(confidence.error)) confidences.push_back(confidence);
+        if (std::isfinite(confidence.confidence) && std::isfinite(confidence.error))
+          confidences.push_back(confidence);
       }
     }
     ConfidenceFit fit{line.name, bin_confidences(std::move(confidences), kNumConfidenceBins), {}};
@@ -176,7 +178,8 @@ std::vector<ConfidenceFit> fit_paper(const std::vector<DriveSamples>& drives, Pa
   return fits;
 }
 
-std::optional<ConfidenceFit> fit_objects(const std::vector<DriveSamples>& drives, GroundModel* model) {
+std::optional<ConfidenceFit> fit_objects(const std::vector<DriveSamples>& drives,
+                                         GroundModel* model) {
   const auto seen = [](const Sample& s) { return std::isfinite(s.objects_err_n3); };
   std::vector<Confidence> confidences;
   for (const DriveSamples& drive : drives) {

@@ -22,8 +22,8 @@ namespace plumb {
 
 /// Fits the standard deviation of a whole drive's scale so that the reported scales have a mean
 /// normalised squared error of one on the median drive. With the mean over drives, one bad drive
-/// would make the model doubt all others. Samples of another algorithm than "learned" leave it as it
-/// is.
+/// would make the model doubt all others. Samples of another algorithm than "learned" leave it as
+/// it is.
 void fit_scale_bias(const std::vector<DriveSamples>& drives, GroundModel* model);
 
 /// A line that predicts a variance from a confidence, and the bins that it was fitted to.
@@ -34,12 +34,12 @@ struct ConfidenceFit {
 };
 /// Fits the published method's lines, from samples of algorithm "paper".
 [[nodiscard]] std::vector<ConfidenceFit> fit_paper(const std::vector<DriveSamples>& drives,
-                                               PaperModel* model);
+                                                   PaperModel* model);
 
 /// Fits model C_d of Algorithm 1 (objects_n3) and objects_correlated_images, from drives with
 /// detections and true planes. Without any it returns null and leaves the model as it is.
 [[nodiscard]] std::optional<ConfidenceFit> fit_objects(const std::vector<DriveSamples>& drives,
-                                                   GroundModel* model);
+                                                       GroundModel* model);
 
 /// One frame's error over its standard deviation.
 struct TimedError {
@@ -50,7 +50,7 @@ struct TimedError {
 /// those of the frames before and after.
 [[nodiscard]] double correlated_images_of(const std::vector<std::vector<TimedError>>& drives);
 [[nodiscard]] double correlated_images_in(const std::vector<std::vector<TargetRow>>& drives,
-                                   const LogVariance& model);
+                                          const LogVariance& model);
 /// The correlation length, in camera heights, that gives this number of images at such steps.
 [[nodiscard]] double correlation_length_of(double num_images, double step_ratio);
 
@@ -82,8 +82,8 @@ struct CueScore {
   std::string drive;
   std::string cue;
   int num_used = 0;
-  int num_rejected = 0;           ///< by the gate
-  double mean_test_ratio = 0.0;   ///< of the used and rejected frames that have one; else NaN
+  int num_rejected = 0;          ///< by the gate
+  double mean_test_ratio = 0.0;  ///< of the used and rejected frames that have one; else NaN
 };
 /// One score for each cue and drive on which the cue measured anything.
 [[nodiscard]] std::vector<CueScore> score_cues(const std::vector<DriveSamples>& drives);

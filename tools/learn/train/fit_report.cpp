@@ -91,8 +91,9 @@ std::string to_text(const std::vector<ConfidenceFit>& fits) {
 }
 
 void write_json(const FitReport& report, const std::filesystem::path& path) {
-  Json json = {
-      {"model", model_json(report.models)}, {"held_out", Json::array()}, {"outputs", Json::array()},
+  Json json = {{"model", model_json(report.models)},
+               {"held_out", Json::array()},
+               {"outputs", Json::array()},
                {"cues", Json::array()}};
   for (const HeldOutScore& s : report.held_out) {
     json["held_out"].push_back({{"drive", s.drive},

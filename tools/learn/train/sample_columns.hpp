@@ -18,7 +18,7 @@ void visit_cue(const std::string& name, Cue& cue, Field&& field) {
 }
 
 template <typename S, typename Field>
-void Sample::visit(S& s, Field&& field) {
+void visit_truth(S& s, Field&& field) {
   field("seq", s.seq);
   field("time_s", s.time_s);
   field("true_step_m", s.true_step_m);
@@ -34,6 +34,10 @@ void Sample::visit(S& s, Field&& field) {
   field("turn_ratio", s.turn_ratio);
   field("step_ratio", s.step_ratio);
   field("speed_m_s", s.speed_m_s);
+}
+
+template <typename S, typename Field>
+void visit_dense(S& s, Field&& field) {
   field("dense_used", s.dense_used);
   field("dense_ncc", s.dense_ncc);
   field("dense_sad", s.dense_sad);
@@ -55,6 +59,10 @@ void Sample::visit(S& s, Field&& field) {
   field("dense_hand_var_n3", s.dense_hand_var_n3);
   field("dense_hand_var_height", s.dense_hand_var_height);
   field("dense_hand_var_given", s.dense_hand_var_given);
+}
+
+template <typename S, typename Field>
+void visit_points_and_objects(S& s, Field&& field) {
   field("points_used", s.points_used);
   field("points_num_candidates", s.points_num_candidates);
   field("points_num_inliers", s.points_num_inliers);
@@ -66,11 +74,19 @@ void Sample::visit(S& s, Field&& field) {
   field("points_hand_var", s.points_hand_var);
   field("objects_confidence", s.objects_confidence);
   field("objects_err_n3", s.objects_err_n3);
+}
+
+template <typename S, typename Field>
+void visit_chord(S& s, Field&& field) {
   field("chord_ratio", s.chord_ratio);
   field("chord_num_frames", s.chord_num_frames);
   field("chord_err", s.chord_err);
   field("chord_ref", s.chord_ref);
   field("chord_hand_var", s.chord_hand_var);
+}
+
+template <typename S, typename Field>
+void visit_output(S& s, Field&& field) {
   field("out_scale_err", s.out_scale_err);
   field("out_scale_var", s.out_scale_var);
   field("out_scale_bias_var", s.out_scale_bias_var);
@@ -90,6 +106,10 @@ void Sample::visit(S& s, Field&& field) {
   field("out_step_var", s.out_step_var);
   field("out_move_nees", s.out_move_nees);
   field("out_turn_nees", s.out_turn_nees);
+}
+
+template <typename S, typename Field>
+void visit_paper(S& s, Field&& field) {
   field("paper_width_height", s.paper_width_height);
   field("paper_width_n1", s.paper_width_n1);
   field("paper_width_n3", s.paper_width_n3);
@@ -98,6 +118,16 @@ void Sample::visit(S& s, Field&& field) {
   field("paper_err_n1", s.paper_err_n1);
   field("paper_err_n3", s.paper_err_n3);
   field("paper_err_points", s.paper_err_points);
+}
+
+template <typename S, typename Field>
+void Sample::visit(S& s, Field&& field) {
+  visit_truth(s, field);
+  visit_dense(s, field);
+  visit_points_and_objects(s, field);
+  visit_chord(s, field);
+  visit_output(s, field);
+  visit_paper(s, field);
   for (std::size_t i = 0; i < kNumCues; ++i)
     visit_cue(std::string("cue_") + kCueTable[i].name, s.cues[i], field);
 }

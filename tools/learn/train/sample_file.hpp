@@ -26,8 +26,8 @@ void write_samples(const DriveSamples& samples, const std::filesystem::path& pat
 /// Throws InputError with file and line for anything but a complete file of this version.
 [[nodiscard]] DriveSamples read_samples(const std::filesystem::path& path);
 
-/// Reads several files. Throws InputError also when two hold the same drive, or when their algorithms
-/// differ.
+/// Reads several files. Throws InputError also when two hold the same drive, or when their
+/// algorithms differ.
 [[nodiscard]] std::vector<DriveSamples> read_all_samples(
     const std::vector<std::filesystem::path>& paths);
 

@@ -10,7 +10,8 @@
 namespace plumb {
 namespace {
 
-// Images over which VO's unit is compared with the truth: long against the truth's jitter, short against VO's drift.
+// Images over which VO's unit is compared with the truth: long against the truth's jitter, short
+// against VO's drift.
 constexpr std::int64_t kChordFrames = 10;
 constexpr double kShortestChord_m = 1.0;
 
@@ -26,7 +27,7 @@ const WindowPose* find_chord(const VoOutput& vo, const TruthTrack& truth) {
 
 }  // namespace
 
-/// Metres per [vo] in this frame, by the truth.
+/// Metres per [vo] in this frame, from the truth.
 struct Sampler::Reference {
   bool known = false;
   double ln_scale = 0.0;

@@ -25,13 +25,13 @@ struct SampledFrame {
 
 class Sampler {
  public:
-  /// `nominal_height_m` stands in for the height where there is no true plane.
+  /// `nominal_height_m` replaces the height where there is no true plane.
   Sampler(const TruthTrack* truth, double nominal_height_m);
 
-  /// Frames without truth, or before the scale is known, leave no sample.
+  /// Takes one frame. Frames without truth, or before the scale is known, give no sample.
   void add(const SampledFrame& frame);
 
-  /// All samples; from here on every truth_ln_std is known. Call once, at the end.
+  /// Returns all samples, with every truth_ln_std filled in. Call once, at the end.
   [[nodiscard]] std::vector<Sample> take();
 
  private:

@@ -143,14 +143,14 @@ std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive, const G
 
 LogVariance& model_of(Target target, GroundModel* model) {
   LogVariance* const kModels[] = {&model->dense_height, &model->dense_n1,    &model->dense_n3,
-                                  &model->points,       &model->chord,      &model->plane_pitch,
+                                  &model->points,       &model->chord,       &model->plane_pitch,
                                   &model->plane_roll,   &model->plane_height};
   return *kModels[static_cast<std::size_t>(target)];
 }
 
 const LogVariance& model_of(Target target, const GroundModel& model) {
   const LogVariance* const kModels[] = {&model.dense_height, &model.dense_n1,    &model.dense_n3,
-                                        &model.points,       &model.chord,      &model.plane_pitch,
+                                        &model.points,       &model.chord,       &model.plane_pitch,
                                         &model.plane_roll,   &model.plane_height};
   return *kModels[static_cast<std::size_t>(target)];
 }

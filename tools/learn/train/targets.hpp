@@ -22,7 +22,7 @@ enum class Target : std::size_t {
 };
 inline constexpr std::array<Target, 8> kTargets{
     Target::kDenseHeight, Target::kDenseN1,    Target::kDenseN3,   Target::kPoints,
-    Target::kChord,      Target::kPlanePitch, Target::kPlaneRoll, Target::kPlaneHeight};
+    Target::kChord,       Target::kPlanePitch, Target::kPlaneRoll, Target::kPlaneHeight};
 /// Variances that are reported on top of the filter's own. They depend on the model of the cues, so
 /// that the samples must come from a run with that model.
 inline constexpr std::array<Target, 3> kPlaneTargets{Target::kPlanePitch, Target::kPlaneRoll,
@@ -44,8 +44,8 @@ struct TargetRow {
 [[nodiscard]] double drive_weight(std::size_t num);
 
 /// Rows of one drive. Frames without a true plane use the road's bend and dense_height (already
-/// fitted) of `model`: there the error of the height is nearly all tilt times slope. The direction of
-/// translation is compared with itself one chord before: over so short a distance only its noise
+/// fitted) of `model`: there the error of the height is nearly all tilt times slope. The direction
+/// of translation is compared with itself one chord before: over so short a distance only its noise
 /// changes. Rows of the plane come only from samples of "learned" runs.
 [[nodiscard]] std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
                                              const GroundModel& model);

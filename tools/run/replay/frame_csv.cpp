@@ -25,13 +25,13 @@ void add_vo(const vo_motion_t& vo, bool holds, CsvRow* row) {
   for (int i = 0; i < 3; ++i) row->add(format("vo_t_%s", axes[i]), vo.t_prev_cam[i], holds);
 }
 
-// Cues whose columns stand among those of the plane. Columns never move, so those of other cues follow
-// at the end of the row.
+// Cues whose columns stand among those of the plane. Columns never move, so those of other cues
+// follow at the end of the row.
 constexpr std::size_t kNumFirstCues = 3;
 
 bool plane_is_valid(const ground_plane_t& plane, bool answered) {
-  return answered && (plane.status == ground_plane_t::STATUS_OK ||
-                      plane.status == ground_plane_t::STATUS_HELD);
+  return answered &&
+         (plane.status == ground_plane_t::STATUS_OK || plane.status == ground_plane_t::STATUS_HELD);
 }
 
 const ground_cue_t& cue_of(const ground_plane_t& plane, std::size_t i) {
@@ -47,8 +47,8 @@ void add_cue(const ground_plane_t& plane, std::size_t i, bool answered, CsvRow* 
   const ground_cue_t& cue = cue_of(plane, i);
   const std::string prefix = std::string(kCueTable[i].name) + "_";
   row->add(prefix + "status", answered ? cue_status_name(cue.status) : "");
-  const bool seen = plane_is_valid(plane, answered) &&
-                    cue.status != static_cast<std::int8_t>(CueStatus::kAbsent);
+  const bool seen =
+      plane_is_valid(plane, answered) && cue.status != static_cast<std::int8_t>(CueStatus::kAbsent);
   row->add(prefix + "height_vo", cue.height, seen);
   row->add(prefix + "n1", cue.n1, seen);
   row->add(prefix + "n3", cue.n3, seen);
@@ -61,8 +61,8 @@ void add_cue(const ground_plane_t& plane, std::size_t i, bool answered, CsvRow* 
 void add_innovation(const ground_plane_t& plane, std::size_t i, bool answered, CsvRow* row) {
   const ground_cue_t& cue = cue_of(plane, i);
   const std::string prefix = std::string(kCueTable[i].name) + "_";
-  const bool seen = plane_is_valid(plane, answered) &&
-                    cue.status != static_cast<std::int8_t>(CueStatus::kAbsent);
+  const bool seen =
+      plane_is_valid(plane, answered) && cue.status != static_cast<std::int8_t>(CueStatus::kAbsent);
   row->add(prefix + "innovation_n1", cue.innovation[0], seen);
   row->add(prefix + "innovation_n3", cue.innovation[1], seen);
   row->add(prefix + "innovation_ln_height", cue.innovation[2], seen);
