@@ -21,6 +21,14 @@ bool lengths_are_valid(std::span<const std::uint8_t> bytes, const detections_t* 
   return count_is_valid(bytes, detections_t::MAX_DETECTIONS);
 }
 
+bool lengths_are_valid(std::span<const std::uint8_t> bytes, const ground_plane_t* /*type*/) {
+  WireCursor cursor(bytes);
+  // Fingerprint, utime, seq, status, reason, normal, height, pitch, roll, covariance.
+  cursor.skip(3 * 8 + 2 * 1 + 3 * 8 + 3 * 8 + 9 * 8);
+  const auto count = cursor.take(1);
+  return cursor.ok() && count[0] <= ground_plane_t::MAX_CUES;
+}
+
 bool lengths_are_valid(std::span<const std::uint8_t> bytes, const objects_t* /*type*/) {
   return count_is_valid(bytes, objects_t::MAX_OBJECTS);
 }

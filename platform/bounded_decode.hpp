@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "plumb/detections_t.hpp"
+#include "plumb/ground_plane_t.hpp"
 #include "plumb/objects_t.hpp"
 #include "plumb/process_health_t.hpp"
 
@@ -69,6 +70,7 @@ class WireCursor {
 
 /// True when every length in `bytes` is within the limits of the message and of `bytes`.
 [[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> bytes, const detections_t*);
+[[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> bytes, const ground_plane_t*);
 [[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> bytes, const objects_t*);
 [[nodiscard]] bool lengths_are_valid(std::span<const std::uint8_t> bytes, const process_health_t*);
 template <typename Message>

@@ -1,7 +1,6 @@
 #include "modules/can/can_wire.hpp"
 
 #include <cmath>
-#include <iterator>
 
 #include "modules/can/validity_wire.hpp"
 #include "plumb/detection_t.hpp"
@@ -128,14 +127,16 @@ const char* from_wire(const ego_motion_t& message, const Messages& messages, Can
 }
 
 const char* from_wire(const ground_plane_t& message, const Messages& messages, CanSample* plane) {
-  constexpr int kNumCues = static_cast<int>(std::size(ground_plane_t{}.cues));
   if (message.seq < 0) return "negative sequence number";
   if (message.status < ground_plane_t::STATUS_OK ||
       message.status > ground_plane_t::STATUS_INVALID) {
     return "unknown status";
   }
   if (message.reason < 0 || message.reason > kMaxReason) return "unknown reason";
-  if (message.num_cues < 0 || message.num_cues > kNumCues) return "wrong number of cues";
+  if (message.num_cues < 0 ||
+      message.cues.size() != static_cast<std::size_t>(message.num_cues)) {
+    return "wrong number of cues";
+  }
   if (validity_of(message) != CanValidity::kInvalid && !plane_is_sound(message)) {
     return "plane is not a number although its status is valid";
   }

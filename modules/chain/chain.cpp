@@ -3,7 +3,6 @@
 #include "core/channels.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/chain/ground_algorithm.hpp"
-#include "modules/ground/ground_model_source.hpp"
 #include "platform/bounded_decode.hpp"
 
 namespace plumb {
@@ -18,7 +17,8 @@ MountConfig without_file(MountConfig config) {
 
 Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
              ObjectsSink objects_sink)
-    : vo_(config.vo, seed, &vo_timer_),
+    : models_(load_models(config.ground.model_file)),
+      vo_(config.vo, seed, &vo_timer_),
       ground_(
           config.ground, config.detections, &ground_timer_,
           [this](const ground_plane_t& plane, const ego_motion_t& ego) {
@@ -26,7 +26,7 @@ Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, S
             ego_ = &ego;
             if (ground_.output() != nullptr) mount_message_ = mount_.update(*ground_.output());
           },
-          load_ground_model(config.ground.model_file), make_ground_algorithm),
+          models_.ground, ground_factory(config, models_)),
       mount_(without_file(config.mount)),
       objects_(config.detections, config.objects, config.ground,
                [this](const objects_t& objects) { take_objects(objects); }),

@@ -1,4 +1,5 @@
-/// The live chain in one process: CAMERA of a log -> vo -> ground -> can, with DETECTIONS -> objects, as fast as it goes.
+/// The live chain in one process: CAMERA of a log -> vo -> ground -> can, with DETECTIONS ->
+/// objects, as fast as it goes.
 ///
 /// It runs the classes that plumb-vo, plumb-ground and plumb-can run, and hands on the messages
 /// they would publish, so its results are theirs bit for bit as long as no image is lost. Nothing
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "modules/can/can_wire.hpp"
+#include "modules/chain/model_file_source.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/ground/ground_node.hpp"
 #include "modules/mount/mount_node.hpp"
@@ -42,8 +44,8 @@ class Chain {
 
   using ObjectsSink = std::function<void(const objects_t&)>;
 
-  /// `can_sink` may be null. `sink` is called once per image, `objects_sink` (may be empty) once per image that was
-  /// searched for objects.
+  /// `can_sink` may be null. `sink` is called once per image, `objects_sink` (may be empty) once
+  /// per image that was searched for objects.
   Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
         ObjectsSink objects_sink = {});
 
@@ -72,6 +74,7 @@ class Chain {
   void send_can();
   void refuse(const std::string& what, const char* why);
 
+  TrainedModels models_;
   StageTimer vo_timer_;
   StageTimer ground_timer_;
   VoNode vo_;

@@ -4,11 +4,16 @@
 
 namespace plumb {
 
-std::unique_ptr<GroundAlgorithm> make_ground_algorithm(const GroundConfig& config,
-                                                       const CameraModel& camera,
-                                                       const GroundModel& model) {
-  if (config.mode == "paper") return std::make_unique<PaperGround>(config, camera, model.paper);
-  return std::make_unique<GroundEstimator>(config, camera, model);
+GroundNode::Factory ground_factory(const PlumbConfig& config, const TrainedModels& models) {
+  const GroundConfig& ground = config.ground;
+  if (config.ground_mode == "paper") {
+    return [ground, paper = config.ground_paper, models](const CameraModel& camera) {
+      return std::make_unique<PaperGround>(ground, paper, camera, models.paper);
+    };
+  }
+  return [ground, models](const CameraModel& camera) {
+    return std::make_unique<GroundEstimator>(ground, camera, models.ground);
+  };
 }
 
 }  // namespace plumb

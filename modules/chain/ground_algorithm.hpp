@@ -1,15 +1,15 @@
-/// The ground algorithm that the configuration names.
+/// The one place that knows all ground algorithms and makes the configured one.
 #pragma once
 
-#include <memory>
-
-#include "modules/ground/ground.hpp"
+#include "modules/chain/model_file_source.hpp"
+#include "modules/chain/plumb_config.hpp"
+#include "modules/ground/ground_node.hpp"
 
 namespace plumb {
 
-/// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
-[[nodiscard]] std::unique_ptr<GroundAlgorithm> make_ground_algorithm(
-    const GroundConfig& config, const CameraModel& camera,
-    const GroundModel& model = built_in_ground_model());
+/// A factory for GroundNode that makes what `ground.mode` names.
+/// @pre config inside the ranges of its visit()
+[[nodiscard]] GroundNode::Factory ground_factory(const PlumbConfig& config,
+                                                 const TrainedModels& models);
 
 }  // namespace plumb

@@ -2,11 +2,14 @@
 /// and a key that no module owns is an error.
 #pragma once
 
+#include <string>
+
 #include "modules/camera/camera_config.hpp"
 #include "modules/can/can_config.hpp"
 #include "modules/detections/detections_config.hpp"
 #include "modules/detector/detector_config.hpp"
 #include "modules/ground/types/ground_config.hpp"
+#include "modules/ground_paper/paper_config.hpp"
 #include "modules/mount/mount_config.hpp"
 #include "modules/objects/objects_config.hpp"
 #include "modules/vo/vo_config.hpp"
@@ -18,7 +21,9 @@ struct PlumbConfig {
   VoConfig vo;
   DetectorConfig detect;
   DetectionsConfig detections;
+  std::string ground_mode = "default";
   GroundConfig ground;
+  PaperConfig ground_paper;
   MountConfig mount;
   ObjectsConfig objects;
   CanConfig can;
@@ -29,7 +34,10 @@ struct PlumbConfig {
     VoConfig::visit(c.vo, field);
     DetectorConfig::visit(c.detect, field);
     DetectionsConfig::visit(c.detections, field);
+    field("ground.mode", c.ground_mode, {"default", "paper"},
+          "algorithm: ours, or that of Song and Chandraker (CVPR 2014) for comparison");
     GroundConfig::visit(c.ground, field);
+    PaperConfig::visit(c.ground_paper, field);
     MountConfig::visit(c.mount, field);
     ObjectsConfig::visit(c.objects, field);
     CanConfig::visit(c.can, field);

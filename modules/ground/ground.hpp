@@ -1,27 +1,25 @@
-/// Ground plane, scale and metric ego-motion from VO motion, road points and the images themselves.
+/// Ground plane, scale and metric ego-motion from VO's motion, its road points and the images.
 ///
-/// Pure algorithm: no clock, no I/O, no heap after construction. `main.cpp` is the process around
-/// it.
+/// Pure algorithm: no clock, no I/O, no heap after construction.
 ///
-/// Frames   cam: x right, y down, z forward.  ground: x forward, y left, z up, on the road under
-/// the camera.
-///          world: cam of the first image.  T_a_b maps b to a.  Plane: normal_cam . X = height, n
-///          points DOWN.
-/// Units    [vo] is VO's own unit; names that end in _m are metric.
-/// Memory   a ring of image pyramids, sized at construction; nothing grows.
+/// Frames  cam: x right, y down, z forward.  world: cam of the first image.
+///         ground: x forward, y left, z up, on the road under the camera.
+///         T_a_b maps b to a.  Plane: normal_cam . X = height, the normal points DOWN.
+/// Units   [vo] is VO's own unit of length; names that end in _m are metric.
+/// Memory  a ring of image pyramids, sized at construction; nothing grows.
 #pragma once
 
 #include <memory>
 
 #include "core/stage_probe.hpp"
 #include "modules/ground/covariance/ground_model.hpp"
+#include "modules/ground/cues/cue_diagnostics.hpp"
 #include "modules/ground/types/ground_types.hpp"
 
 namespace plumb {
 
-struct GroundSight;
-
-/// One `update` per VO result, in order. Deterministic in config, camera and the inputs.
+/// What GroundNode runs. One `update` per VO result, in order; deterministic in configuration,
+/// camera and inputs.
 class GroundAlgorithm {
  public:
   virtual ~GroundAlgorithm() = default;
@@ -31,11 +29,12 @@ class GroundAlgorithm {
 
   /// Takes one VO result and its image. The result stays valid until the next call.
   virtual const GroundOutput& update(const GroundInput& input, StageProbe& probe) = 0;
-  /// What the last update's cues saw (ground_sight.hpp); null when the algorithm does not tell.
-  [[nodiscard]] virtual const GroundSight* sight() const { return nullptr; }
+  /// What went into the last update; null when the algorithm does not tell.
+  [[nodiscard]] virtual const CueDiagnostics* diagnostics() const { return nullptr; }
 };
 
-/// The default algorithm. (`paper/` has the published one; `make_ground_algorithm` chooses.)
+/// The default algorithm: an extended Kalman filter of the road plane (plane_filter.hpp), fed by
+/// the cues of kCueTable.
 class GroundEstimator final : public GroundAlgorithm {
  public:
   /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
@@ -44,16 +43,11 @@ class GroundEstimator final : public GroundAlgorithm {
   ~GroundEstimator() override;
 
   const GroundOutput& update(const GroundInput& input, StageProbe& probe) override;
-  [[nodiscard]] const GroundSight* sight() const override;
+  [[nodiscard]] const CueDiagnostics* diagnostics() const override;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// The default algorithm, as a factory for GroundNode.
-[[nodiscard]] std::unique_ptr<GroundAlgorithm> make_ground_estimator(const GroundConfig& config,
-                                                                     const CameraModel& camera,
-                                                                     const GroundModel& model);
 
 }  // namespace plumb

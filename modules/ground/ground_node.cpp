@@ -23,8 +23,13 @@ const char* GroundNode::take_calibration(const camera_calibration_t& message) {
   camera_ = camera;
   decoder_.emplace(camera.width_px, camera.height_px);
   images_.emplace(camera.width_px, camera.height_px);
-  algorithm_ = make_(config_, camera, model_);
-  object_pitch_ = std::make_unique<ObjectPitch>(config_, detections_, camera, model_.objects_n3);
+  camera_height_ = camera_height_of(config_, camera);
+  if (make_) {
+    algorithm_ = make_(camera);
+  } else {
+    algorithm_ = std::make_unique<GroundEstimator>(config_, camera, model_);
+  }
+  objects_ = std::make_unique<ObjectsQueue>(config_, detections_, camera, model_.objects_n3);
   return nullptr;
 }
 
@@ -65,14 +70,14 @@ const char* GroundNode::take_motion(const vo_motion_t& message) {
 const char* GroundNode::take_detections(const detections_t& message) {
   if (const char* why = from_wire(message, &arrived_)) return why;
   if (!calibrated()) return "detections came before a calibration";
-  return object_pitch_->take(arrived_);
+  return objects_->take(arrived_);
 }
 
 void GroundNode::expire() {
   if (waiting_) (void)process(nullptr);
 }
 
-// prev_seq names the image VO had before: its motion must have come here too.
+// prev_seq names the image that VO had before. Its motion must have arrived here too.
 void GroundNode::count_lost_motion(const vo_motion_t& message) {
   if (any_motion_ && message.prev_seq > last_motion_seq_ && message.prev_seq < message.seq)
     ++num_motions_lost_;
@@ -83,13 +88,13 @@ void GroundNode::count_lost_motion(const vo_motion_t& message) {
 const char* GroundNode::process(const ImageFrame* frame) {
   waiting_ = false;
   probe_->begin();
-  GroundInput input{&vo_, {}, object_pitch_->update(vo_)};
+  GroundInput input{&vo_, {}, objects_->update(vo_, camera_height_), camera_height_};
   const char* refused = nullptr;
   if (frame != nullptr) refused = decoder_->decode(*frame, &input.image);
   if (input.image.empty()) ++num_unpaired_;
   probe_->mark("decode");
   output_ = &algorithm_->update(input, *probe_);
-  object_pitch_->note(output_->plane);
+  objects_->note(output_->plane);
   publish(*output_);
   return refused;
 }

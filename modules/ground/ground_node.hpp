@@ -1,11 +1,17 @@
-/// Everything plumb-ground does between its inputs' messages and its outputs'; the replay runs the same class.
+/// Everything plumb-ground does between its input messages and its output messages. plumb-replay
+/// runs the same class.
 ///
-/// Pairing  a VO motion is processed with the image of its number and time. If that image is not here yet, the motion
-///          waits: for the image, for the next motion, or for expire(), whichever comes first; in the last two cases
-///          it is processed without an image (IMAGE_MISSING). Results depend on the messages, never on the clock, as
-///          long as no image is lost.
-/// Objects  detections enter `ground.detections_delay_images` images after their own.
-/// Start    the first sound calibration makes the estimator; before it, motions yield INVALID, NO_CALIBRATION.
+/// Pairing  A VO motion is processed with the image of its number and time. If that image has not
+///          arrived, the motion waits for the image, for the next motion or for expire(), whichever
+///          comes first; in the last two cases it is processed without an image (IMAGE_MISSING).
+///          Results depend on the messages and never on the clock, as long as no image is lost.
+/// Objects  Detections are used `ground.detections_delay_images` images after their own.
+/// Start    The first valid calibration makes the estimator. Before it, motions yield INVALID with
+///          NO_CALIBRATION.
+/// Height   The camera's height over the road is kept in this class alone and handed to everything
+///          that needs it, frame by frame: the calibration's or the configured one, until
+///          set_camera_height() says otherwise.
+/// Memory   PendingImages and what the algorithm needs, at the first calibration.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +24,7 @@
 #include "core/stage_probe.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/detections/detections_wire.hpp"
-#include "modules/ground/cues/object_pitch.hpp"
+#include "modules/ground/cues/objects_queue.hpp"
 #include "modules/ground/ground.hpp"
 #include "modules/ground/ground_wire.hpp"
 #include "modules/ground/pending_images.hpp"
@@ -31,36 +37,39 @@ class GroundNode {
   /// Takes each result, in the order of the motions.
   using Sink = std::function<void(const ground_plane_t&, const ego_motion_t&)>;
 
-  /// Makes the estimator, once the camera is known.
-  using Factory = std::function<std::unique_ptr<GroundAlgorithm>(
-      const GroundConfig&, const CameraModel&, const GroundModel&)>;
+  /// Makes the algorithm, once the camera is known.
+  using Factory = std::function<std::unique_ptr<GroundAlgorithm>(const CameraModel&)>;
 
-  /// `probe` outlives the node; a "decode" stage is marked before the estimator's own.
+  /// `probe` must outlive the node; a "decode" stage is marked before the algorithm's own. Without
+  /// `make` the algorithm is a GroundEstimator.
   GroundNode(const GroundConfig& config, const DetectionsConfig& detections, StageProbe* probe,
-             Sink sink, const GroundModel& model = built_in_ground_model(),
-             Factory make = make_ground_estimator);
+             Sink sink, const GroundModel& model = built_in_ground_model(), Factory make = {});
 
-  /// Null when taken, else why it was refused.
+  /// Each returns null when the message was taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes);
   [[nodiscard]] const char* take_motion(const vo_motion_t& message);
-  /// Detections of any image that is not yet used (object_pitch.hpp).
+  /// Takes detections of any image that was not yet used (objects_queue.hpp).
   [[nodiscard]] const char* take_detections(const detections_t& message);
-  /// The image of a waiting motion will not come any more.
+  /// The image of a waiting motion will not come.
   void expire();
+
+  /// Takes another height of the camera over its road, from the next motion on. @pre height_m > 0
+  void set_camera_height(const CameraHeight& height) { camera_height_ = height; }
 
   [[nodiscard]] bool calibrated() const { return algorithm_ != nullptr; }
   [[nodiscard]] bool waiting() const { return waiting_; }
-  /// What the newest frame's cues saw; null before a calibration and when the algorithm does not tell.
-  [[nodiscard]] const GroundSight* sight() const {
-    return algorithm_ ? algorithm_->sight() : nullptr;
+  /// What went into the newest frame; null before a calibration and when the algorithm does not
+  /// tell.
+  [[nodiscard]] const CueDiagnostics* diagnostics() const {
+    return algorithm_ ? algorithm_->diagnostics() : nullptr;
   }
-  /// The newest frame's result with what does not travel (CueObservation::features); null before
-  /// the first one after a calibration.
+  /// The newest result, with what the messages leave out (CueReport::features); null before the
+  /// first one after a calibration.
   [[nodiscard]] const GroundOutput* output() const { return output_; }
-  /// Images and motions that never arrived.
+  /// Number of images and motions that never arrived.
   [[nodiscard]] std::int64_t num_lost() const { return losses_.num_lost() + num_motions_lost_; }
-  /// Motions that were processed without an image.
+  /// Number of motions that were processed without an image.
   [[nodiscard]] std::int64_t num_unpaired() const { return num_unpaired_; }
 
  private:
@@ -75,14 +84,15 @@ class GroundNode {
   StageProbe* probe_;
   Sink sink_;
   CameraModel camera_;
+  CameraHeight camera_height_;
   std::optional<ImageDecoder> decoder_;
   std::optional<PendingImages> images_;
   std::unique_ptr<GroundAlgorithm> algorithm_;
-  std::unique_ptr<ObjectPitch> object_pitch_;
+  std::unique_ptr<ObjectsQueue> objects_;
   DetectionFrame arrived_;
   const GroundOutput* output_ = nullptr;
   LossCounter losses_;
-  VoOutput vo_;  ///< the motion in hand, or waiting
+  VoOutput vo_;  ///< the motion that is processed or waits
   bool waiting_ = false;
   bool any_motion_ = false;
   std::int64_t last_motion_seq_ = 0;

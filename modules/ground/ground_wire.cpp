@@ -28,29 +28,34 @@ static_assert(same(EgoStatus::kScaleHeld, ego_motion_t::STATUS_SCALE_HELD));
 static_assert(same(EgoStatus::kStandstill, ego_motion_t::STATUS_STANDSTILL));
 static_assert(same(EgoStatus::kCoasting, ego_motion_t::STATUS_COASTING));
 static_assert(same(EgoStatus::kLost, ego_motion_t::STATUS_LOST));
-static_assert(same(kCueDense, ground_plane_t::CUE_DENSE));
-static_assert(same(kCuePoints, ground_plane_t::CUE_POINTS));
-static_assert(same(kCueObjects, ground_plane_t::CUE_OBJECTS));
-static_assert(sizeof(ground_plane_t::cues) / sizeof(ground_cue_t) == kNumCues);
+static_assert(same(kMaxCues, ground_plane_t::MAX_CUES));
 
 constexpr double kUnitTolerance = 1e-6;
 constexpr std::int8_t kLastCueStatus = static_cast<std::int8_t>(CueStatus::kFailed);
 
-bool is_deviation(double value) { return std::isfinite(value) && value >= 0.0; }
+bool is_std(double value) { return std::isfinite(value) && value >= 0.0; }
 
 const char* cues_from_wire(const ground_plane_t& message, PlaneOutput* plane) {
-  if (message.num_cues != static_cast<std::int8_t>(kNumCues)) return "ground plane: not 3 cues";
-  for (std::size_t i = 0; i < kNumCues; ++i) {
+  if (message.num_cues < 0 || message.num_cues > ground_plane_t::MAX_CUES ||
+      message.cues.size() != static_cast<std::size_t>(message.num_cues)) {
+    return "ground plane: wrong number of cues";
+  }
+  plane->cues.fill({});
+  for (std::size_t i = 0; i < message.cues.size(); ++i) {
     const ground_cue_t& cue = message.cues[i];
     if (cue.status < 0 || cue.status > kLastCueStatus) return "ground plane: unknown cue status";
-    plane->cues[i] = {static_cast<CueStatus>(cue.status),
-                      cue.height,
-                      cue.n1,
-                      cue.n3,
-                      cue.height_var,
-                      cue.n1_var,
-                      cue.n3_var,
-                      cue.quality};
+    if (i >= kNumCues) continue;  // a newer program's cue
+    CueReport& report = plane->cues[i];
+    report.status = static_cast<CueStatus>(cue.status);
+    report.height = cue.height;
+    report.n1 = cue.n1;
+    report.n3 = cue.n3;
+    report.height_var = cue.height_var;
+    report.n1_var = cue.n1_var;
+    report.n3_var = cue.n3_var;
+    report.quality = cue.quality;
+    report.innovation = Eigen::Vector3d(cue.innovation);
+    report.test_ratio = cue.test_ratio;
   }
   return nullptr;
 }
@@ -72,7 +77,7 @@ const char* plane_from_wire(const ground_plane_t& message, PlaneOutput* plane) {
   if (claims && !(std::abs(plane->normal_cam.norm() - 1.0) <= kUnitTolerance &&
                   plane->height_m > 0.0 && std::isfinite(plane->height_m) &&
                   std::isfinite(plane->pitch_rad) && std::isfinite(plane->roll_rad))) {
-    return "ground plane: says that the plane holds, but it is none";
+    return "ground plane: its status says that the plane is valid, but it is not";
   }
   if (from_wire(message.cov, &plane->cov) != nullptr) return "ground plane: not a covariance";
   return cues_from_wire(message, plane);
@@ -88,16 +93,14 @@ const char* rates_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   ego->distance_m = message.distance_m;
   ego->log_scale = message.log_scale;
   ego->log_scale_std = message.log_scale_std;
-  // A car that has not moved yet stands still at no known scale.
-  const bool scale_holds =
-      std::isfinite(ego->log_scale) &&
-      (is_deviation(ego->log_scale_std) ||
-       (ego->status == EgoStatus::kStandstill && std::isnan(ego->log_scale_std)));
-  const bool holds = ego->velocity_ground_m_s.allFinite() && ego->rate_ground_rad_s.allFinite() &&
-                     is_deviation(ego->speed_std_m_s) && is_deviation(ego->yaw_rate_std_rad_s) &&
-                     !std::isinf(ego->accel_forward_m_s2) && is_deviation(ego->distance_m) &&
-                     scale_holds;
-  return holds ? nullptr : "ego motion: a velocity, rate or scale is not a number";
+  // The scale is unknown while the car has not moved yet.
+  const bool scale_valid = std::isfinite(ego->log_scale) &&
+                           (is_std(ego->log_scale_std) || (ego->status == EgoStatus::kStandstill &&
+                                                           std::isnan(ego->log_scale_std)));
+  const bool valid = ego->velocity_ground_m_s.allFinite() && ego->rate_ground_rad_s.allFinite() &&
+                     is_std(ego->speed_std_m_s) && is_std(ego->yaw_rate_std_rad_s) &&
+                     !std::isinf(ego->accel_forward_m_s2) && is_std(ego->distance_m) && scale_valid;
+  return valid ? nullptr : "ego motion: a velocity, rate or scale is not a number";
 }
 
 const char* ego_from_wire(const ego_motion_t& message, EgoOutput* ego) {
@@ -118,7 +121,20 @@ const char* ego_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   }
   const char* why = rates_from_wire(message, ego);
   const bool silent = ego->status == EgoStatus::kInitializing || ego->status == EgoStatus::kLost;
-  return silent ? nullptr : why;  // its rates do not hold, and may be anything
+  return silent ? nullptr : why;  // rates of such a motion are not valid and may be anything
+}
+
+void to_wire(const CueReport& cue, ground_cue_t* out) {
+  out->status = static_cast<std::int8_t>(cue.status);
+  out->height = cue.height;
+  out->n1 = cue.n1;
+  out->n3 = cue.n3;
+  out->height_var = cue.height_var;
+  out->n1_var = cue.n1_var;
+  out->n3_var = cue.n3_var;
+  out->quality = cue.quality;
+  for (int i = 0; i < 3; ++i) out->innovation[i] = cue.innovation(i);
+  out->test_ratio = cue.test_ratio;
 }
 
 }  // namespace
@@ -135,18 +151,8 @@ void to_wire(const GroundOutput& output, ground_plane_t* message) {
   message->roll_rad = plane.roll_rad;
   to_wire(plane.cov, message->cov);
   message->num_cues = static_cast<std::int8_t>(kNumCues);
-  for (std::size_t i = 0; i < kNumCues; ++i) {
-    const CueObservation& cue = plane.cues[i];
-    ground_cue_t& out = message->cues[i];
-    out.status = static_cast<std::int8_t>(cue.status);
-    out.height = cue.height;
-    out.n1 = cue.n1;
-    out.n3 = cue.n3;
-    out.height_var = cue.height_var;
-    out.n1_var = cue.n1_var;
-    out.n3_var = cue.n3_var;
-    out.quality = cue.quality;
-  }
+  message->cues.resize(kNumCues);
+  for (std::size_t i = 0; i < kNumCues; ++i) to_wire(plane.cues[i], &message->cues[i]);
 }
 
 void to_wire(const GroundOutput& output, ego_motion_t* message) {

@@ -1,4 +1,7 @@
-/// GroundOutput <-> ground_plane_t and ego_motion_t. No LCM instance.
+/// GroundOutput <-> ground_plane_t and ego_motion_t. Uses no LCM instance.
+///
+/// Memory  the list of cues in a message is sized once; a message that is used again does not
+///         allocate.
 #pragma once
 
 #include "modules/ground/types/ground_types.hpp"
@@ -10,7 +13,8 @@ namespace plumb {
 void to_wire(const GroundOutput& output, ground_plane_t* message);
 void to_wire(const GroundOutput& output, ego_motion_t* message);
 
-/// Null, and `output` filled, when both messages keep their contracts and are of the same image; else why not.
+/// Fills `output` and returns null when both messages keep their contracts and belong to the same
+/// image; else returns why not. Cues beyond kNumCues are ignored, missing ones are absent.
 [[nodiscard]] const char* from_wire(const ground_plane_t& plane, const ego_motion_t& ego,
                                     GroundOutput* output);
 

@@ -1,6 +1,7 @@
-/// Copies of the newest images, waiting for the VO motion of the same frame.
+/// Copies of the newest images that wait for the VO motion of the same frame.
 ///
-/// Memory   kSlots images at construction (30 MB for KITTI); when all are taken the oldest gives way.
+/// Memory  kSlots images at construction (30 MB for KITTI). When all are taken, the oldest is
+///         dropped.
 #pragma once
 
 #include <array>
@@ -14,16 +15,16 @@ namespace plumb {
 
 class PendingImages {
  public:
-  /// As many as the CAMERA queue holds: plumb-vo cannot be further behind without losing images itself.
+  /// As many as the CAMERA queue holds: plumb-vo cannot be further behind without losing images.
   static constexpr std::size_t kSlots = 64;
 
   PendingImages(int width_px, int height_px);
 
   /// False when the image does not fit a slot.
   [[nodiscard]] bool put(const ImageFrame& frame);
-  /// The image of that number and time, null when it is not here. Valid until the next put().
+  /// The image of that number and time; null when it is not stored. Valid until the next put().
   [[nodiscard]] const ImageFrame* find(std::int64_t seq, std::int64_t capture_us) const;
-  /// Forgets `frame`, which find() returned, and all that came before it.
+  /// Drops `frame`, which find() returned, and all images before it.
   void drop_through(const ImageFrame* frame);
 
  private:

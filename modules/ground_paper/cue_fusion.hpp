@@ -1,7 +1,8 @@
-/// Fusion (5) of the paper, U = (sum U_i^-1)^-1 and z = U sum U_i^-1 z_i, in information form.
+/// The fusion of the paper, equation (5): U = (sum U_i^-1)^-1 and z = U sum U_i^-1 z_i, in
+/// information form.
 ///
-/// The paper takes the components of a cue as uncorrelated, so every U_i is diagonal; a component
-/// that a cue does not observe adds no information.
+/// The paper takes the components of a cue as uncorrelated, so that every U_i is diagonal. A
+/// component that a cue does not observe adds no information.
 #pragma once
 
 #include <Eigen/Core>

@@ -17,8 +17,8 @@ double score_of(std::span<const double> heights, std::size_t i, double mu) {
 
 }  // namespace
 
-Vote vote_height(std::span<const double> heights, double mu) {
-  Vote vote;
+HeightVote vote_height(std::span<const double> heights, double mu) {
+  HeightVote vote;
   if (heights.size() < 2) return vote;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double score = score_of(heights, i, mu);
@@ -28,8 +28,8 @@ Vote vote_height(std::span<const double> heights, double mu) {
   return vote;
 }
 
-Vote vote_height_any_unit(std::span<const double> heights, double mu, double true_height) {
-  Vote vote;
+HeightVote vote_height_any_unit(std::span<const double> heights, double mu, double true_height) {
+  HeightVote vote;
   if (heights.size() < 2) return vote;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     if (!(heights[i] > 0.0)) continue;

@@ -1,4 +1,4 @@
-/// Copies of the last images, found again by sequence number.
+/// Copies of the last images, found by their sequence numbers.
 ///
 /// Memory  kCapacity images, sized at construction.
 #pragma once
@@ -28,7 +28,7 @@ class ImageKeeper {
     return !image.empty() && image.width_px == width_px_ && image.height_px == height_px_;
   }
 
-  /// Keeps a copy in the place of the oldest image, or of the newest one; returns that place.
+  /// Stores a copy in the place of the oldest image, or of the newest one, and returns that place.
   /// @pre fits(image)
   std::size_t push(std::int64_t seq, const ImageView& image, bool replace_newest) {
     if (!replace_newest) newest_ = (newest_ + 1) % kCapacity;
@@ -42,7 +42,7 @@ class ImageKeeper {
     return newest_;
   }
 
-  /// kNone when the image of `seq` is not held.
+  /// kNone when the image of `seq` is not stored.
   [[nodiscard]] std::size_t find(std::int64_t seq) const {
     for (std::size_t i = 0; i < kCapacity; ++i) {
       if (seq >= 0 && images_[i].seq == seq) return i;

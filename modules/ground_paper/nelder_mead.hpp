@@ -1,4 +1,4 @@
-/// Nelder and Mead's simplex search for a minimum, without derivatives.
+/// The simplex search of Nelder and Mead (1965) for a minimum, without derivatives.
 ///
 /// Memory  N + 1 points in place.
 #pragma once
@@ -13,7 +13,7 @@ namespace plumb {
 
 struct NelderMeadLimits {
   int max_evaluations = 200;
-  double value_tolerance = 1e-6;  ///< stop when all corners' costs lie within this
+  double value_tolerance = 1e-6;  ///< converged when all corners' costs lie within this
   double size_tolerance = 1e-4;   ///< and all corners within this many first steps of the best
 };
 

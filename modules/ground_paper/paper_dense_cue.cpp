@@ -13,21 +13,21 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // First simplex: a tenth of the height, and about a degree.
 constexpr double kFirstHeightRatio = 0.1;
 constexpr double kFirstTilt = 0.02;
-// A search that ends further away from the expected plane found something else than the road. The
-// paper looks at tilts of +-0.1.
+// A search that ends further from the expected plane found something else than the road. The paper
+// looks at tilts of +-0.1.
 constexpr double kHeightRange = 2.0;  // factor, either way
 constexpr double kTiltRange = 0.1;
-// Slices: h over [0.5, 1.5] of the found one (paper, 5.1.1), tilts over +-0.1.
+// Slices: h over [0.5, 1.5] of the minimum (paper, section 5.1.1), tilts over +-0.1.
 constexpr double kSliceHeightRatio = 0.5;
 constexpr double kSliceTilt = 0.1;
-// Costs lie in [0, 1]; a search that changes less, in all corners, has settled.
+// Costs lie in [0, 1]; a search whose corners differ by less than this has converged.
 constexpr NelderMeadLimits kLimits{200, 1e-5, 0.02};
 
 // Heights that the start tries, as steps per height: 1.65 m at 10 images/s are 1 to 65 m/s.
 constexpr double kSlowestStep = 0.06;
 constexpr double kFastestStep = 4.0;
 constexpr int kNumSteps = 90;
-// Where there is a road to be seen, the best height differs by less than this share of the mean.
+// If a road is visible, the cost of the best height is less than this share of the mean.
 constexpr double kLeastDip = 0.85;
 
 }  // namespace
@@ -42,14 +42,14 @@ double PaperDenseCue::cost(const ImageView& old_image, const Se3& T_old_cam,
   return std::isnan(sad) ? kInfinity : 1.0 - std::exp(-ln_rho_ * sad);  // (7)
 }
 
-PaperDenseObservation PaperDenseCue::measure(const ImageView& old_image, const Se3& T_old_cam,
+PaperDenseMeasurement PaperDenseCue::measure(const ImageView& old_image, const Se3& T_old_cam,
                                              const Eigen::Vector3d& expected) const {
   const auto f = [&](const Eigen::Vector3d& z) { return cost(old_image, T_old_cam, z); };
   const Eigen::Vector3d step(kFirstTilt, kFirstTilt, kFirstHeightRatio * expected(kH));
   NelderMead<3, decltype(f)> search(f, kLimits);
   const NelderMeadResult<3> found = search.run(expected, step);
 
-  PaperDenseObservation out;
+  PaperDenseMeasurement out;
   out.num_evaluations = found.num_evaluations;
   out.z = found.x;
   const double height_ratio = found.x(kH) / expected(kH);
@@ -59,8 +59,8 @@ PaperDenseObservation PaperDenseCue::measure(const ImageView& old_image, const S
   out.sad = region_.sad(old_image, T_old_cam, q_of(out.z));
   out.width.setConstant(kInfinity);
   for (const PlaneComponent along : {kN1, kN3, kH}) {
-    const Bell bell = fit_bell(slice(old_image, T_old_cam, out.z, along));
-    if (bell.ok) out.width(along) = bell.width;
+    const GaussianDip dip = fit_gaussian(slice(old_image, T_old_cam, out.z, along));
+    if (dip.ok) out.width(along) = dip.width;
   }
   out.ok = true;
   return out;
@@ -103,7 +103,7 @@ double PaperDenseCue::search_height(const ImageView& old_image, const Se3& T_old
       best_index = i;
     }
   }
-  // Best at the slowest: the picture stands, or shows no road.
+  // If the slowest step fits best, the image does not move or shows no road.
   return best_index > 0 && best < kLeastDip * sum / num ? best_height : 0.0;
 }
 

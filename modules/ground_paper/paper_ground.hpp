@@ -1,28 +1,30 @@
 /// Ground plane, scale and metric motion by Song and Chandraker, "Robust Scale Estimation in
 /// Real-Time Monocular SFM for Autonomous Driving", CVPR 2014.
 ///
-/// Cues, covariances, fusion (5) and filter (3)-(4) are the paper's; motion and pose come out of
-/// the same EgoMotion as the default's. README.md beside this file lists what the paper leaves
-/// open and what differs.
+/// Cues, covariances, fusion (5) and filter (3)-(4) are the paper's. Motion and pose come from the
+/// same EgoMotion as the default's. README.md beside this file lists what the paper leaves open and
+/// what differs.
 ///
-/// Scale   lengths of VO are taken times metres_per_vo, which is corrected by s = h / h* after
-///         every frame that saw a height; so h stays near the camera's true height h*.
+/// Scale   VO's lengths are multiplied by metres_per_vo, which is corrected by s = h / h* after
+///         every frame that measured a height, so that h stays near the camera's true height h*.
+/// Frames  as in ground.hpp.
 /// Memory  twelve images and the road region, at construction. SIFT uses the heap in every frame:
-///         this mode is exempt from the rule that the default keeps, and made for comparison.
+///         this mode is made for comparison and exempt from the rule that the default keeps.
 #pragma once
 
 #include <memory>
 
-#include "modules/ground/covariance/paper_model.hpp"
 #include "modules/ground/ground.hpp"
+#include "modules/ground_paper/paper_config.hpp"
+#include "modules/ground_paper/paper_model.hpp"
 
 namespace plumb {
 
 class PaperGround final : public GroundAlgorithm {
  public:
-  /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
-  PaperGround(const GroundConfig& config, const CameraModel& camera,
-              const PaperModel& model = built_in_ground_model().paper);
+  /// @pre configs inside the ranges of their visit(); camera.width_px, height_px >= 64
+  PaperGround(const GroundConfig& config, const PaperConfig& paper, const CameraModel& camera,
+              const PaperModel& model = built_in_paper_model());
   ~PaperGround() override;
 
   const GroundOutput& update(const GroundInput& input, StageProbe& probe) override;

@@ -3,7 +3,7 @@
 namespace plumb {
 namespace {
 
-// A match that the motion does not explain is no road point.
+// A match that the motion does not explain is not a road point.
 constexpr double kLargestMissPx = 1.5;
 constexpr std::size_t kLeastVoters = 4;
 constexpr double kLeastStartScore = 4.0;
@@ -41,11 +41,11 @@ void PaperPointsCue::collect(std::span<const PixelMatch> matches, const Se3& T_o
   }
 }
 
-PaperPointsObservation PaperPointsCue::measure(std::span<const PixelMatch> matches,
+PaperPointsMeasurement PaperPointsCue::measure(std::span<const PixelMatch> matches,
                                                const Se3& T_old_cam) {
   collect(matches, T_old_cam);
-  const Vote vote = vote_height({heights_.begin(), heights_.size()}, mu_);
-  PaperPointsObservation out;
+  const HeightVote vote = vote_height({heights_.begin(), heights_.size()}, mu_);
+  PaperPointsMeasurement out;
   out.num_matches = static_cast<int>(matches.size());
   out.num_voters = static_cast<int>(heights_.size());
   out.height = vote.height;
@@ -57,7 +57,7 @@ PaperPointsObservation PaperPointsCue::measure(std::span<const PixelMatch> match
 double PaperPointsCue::search_height(std::span<const PixelMatch> matches, const Se3& T_old_cam,
                                      double height_m) {
   collect(matches, T_old_cam);
-  const Vote vote = vote_height_any_unit({heights_.begin(), heights_.size()}, mu_, height_m);
+  const HeightVote vote = vote_height_any_unit({heights_.begin(), heights_.size()}, mu_, height_m);
   return vote.ok && vote.score >= kLeastStartScore ? vote.height : 0.0;
 }
 

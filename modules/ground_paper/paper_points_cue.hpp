@@ -1,5 +1,5 @@
-/// Triangulated-points cue of the paper: features of the road region, triangulated between this
-/// image and an older one, vote for the height over a road of the calibrated normal.
+/// Triangulated-points cue of the paper: features of the road region are triangulated between this
+/// image and an older one, and vote for the height over a road of the calibrated normal.
 ///
 /// Frames  cam of the newest image.  Units  that of t.  Memory  kMaxVoters heights in place.
 #pragma once
@@ -23,26 +23,27 @@ struct Triangulated {
   double miss_px = 0.0;  ///< distance to the match in the older image
 };
 
-/// Depth along the newest image's ray by least squares in the older image.
+/// Finds the depth along the newest image's ray by least squares in the older image.
 [[nodiscard]] Triangulated triangulate(const CameraModel& camera, const Se3& T_old_cam,
                                        const PixelMatch& match);
 
-struct PaperPointsObservation {
+struct PaperPointsMeasurement {
   bool ok = false;
   double height = 0.0;
-  double score = 0.0;  ///< q of (8): the belief
+  double score = 0.0;  ///< q of equation (8): the confidence
   int num_matches = 0;
   int num_voters = 0;
 };
 
 class PaperPointsCue {
  public:
-  /// `normal_cam` is the calibrated one: the paper holds the pitch fixed.
+  /// `normal_cam` is the calibrated one: the paper fixes the pitch.
   PaperPointsCue(const CameraModel& camera, const Eigen::Vector3d& normal_cam, double mu);
 
-  [[nodiscard]] PaperPointsObservation measure(std::span<const PixelMatch> matches,
+  [[nodiscard]] PaperPointsMeasurement measure(std::span<const PixelMatch> matches,
                                                const Se3& T_old_cam);
-  /// Vote when the unit of t says nothing yet, for a camera at `height_m`. 0 with too few points.
+  /// HeightVote when the unit of t says nothing yet, for a camera at `height_m`. 0 with too few
+  /// points.
   [[nodiscard]] double search_height(std::span<const PixelMatch> matches, const Se3& T_old_cam,
                                      double height_m);
 

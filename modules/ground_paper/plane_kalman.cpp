@@ -6,7 +6,7 @@
 namespace plumb {
 namespace {
 
-/// Where a component of z = (n1, n3, h) stands in x = (n1, n2, n3, h).
+/// Index in x = (n1, n2, n3, h) of a component of z = (n1, n3, h).
 constexpr int state_index(PlaneComponent component) {
   return component == kN1 ? 0 : component == kN3 ? 2 : 3;
 }

@@ -1,5 +1,5 @@
-/// Kalman filter (3)-(4) of the paper: state x = (n, h), a plane that stays where it is in the
-/// world while the camera moves.
+/// The Kalman filter of the paper, equations (3) and (4): the state x = (n, h) is a plane that
+/// stays in the world while the camera moves.
 ///
 /// With n pointing down and n . X = h, a camera that moves by (R, t) = T_prev_cam sees
 ///   n' = R^T n,  h' = h - n . t.
@@ -26,14 +26,14 @@ class PlaneKalman {
 
   void start(const Eigen::Vector3d& normal, double height, double normal_var, double height_var);
   void predict(const Se3& T_prev_cam);
-  /// z = H x, H picking those of n1, n3 and h that were observed.
+  /// Fuses z = H x, where H selects those of n1, n3 and h that were observed.
   void observe(const CueFusion& fused);
 
-  /// Another unit of length: h becomes h / s.
+  /// Changes the unit of length: h becomes h / s.
   void divide_unit(double s);
-  /// h is known no better than by this much more.
-  void doubt_height(double var) { P_(3, 3) += var; }
-  /// Takes h as `height`, with the deviation it has.
+  /// Adds to the variance of h.
+  void add_height_var(double var) { P_(3, 3) += var; }
+  /// Sets h to `height` and keeps its variance.
   void hold_height(double height) { h_ = height; }
 
   [[nodiscard]] const Eigen::Vector3d& normal() const { return n_; }

@@ -7,15 +7,15 @@
 
 #include "core/numbers.hpp"
 #include "core/simd.hpp"
-#include "modules/ground/cues/plane_landing.hpp"
+#include "modules/ground/cues/homography_warp.hpp"
 
 namespace plumb {
 namespace {
 
 constexpr double kLeastOverlap = 0.5;
 
-/// Interpolates along u in the row `row_offset` below the landing.
-inline void sample_row(const ImageView& image, const Landing& at, int row_offset, Float8* out) {
+/// Interpolates along u in the row `row_offset` below the warped ray.
+inline void sample_row(const ImageView& image, const WarpedRays& at, int row_offset, Float8* out) {
   Int8 words{};
   for (int lane = 0; lane < kNumLanes; ++lane) {
     std::uint16_t pair = 0;
@@ -72,8 +72,8 @@ double RoadRegion::sad(const ImageView& old_image, const Se3& T_old_cam,
     x = load_floats(x_.data() + i);
     y = load_floats(y_.data() + i);
     grey = load_floats(grey_.data() + i);
-    Landing at{};
-    land(h, camera, old_image, x, y, 0, &at);
+    WarpedRays at{};
+    warp_rays(h, camera, old_image, x, y, 0, &at);
     sample_row(old_image, at, 0, &upper);
     sample_row(old_image, at, 1, &lower);
     const Float8 difference = upper + at.fv * (lower - upper) - grey;

@@ -1,9 +1,9 @@
-/// The region of interest of the paper, middle fifth of the lower third, and how well it fits the
-/// older image under a plane.
+/// The region of interest of the paper, the middle fifth of the lower third, and its agreement with
+/// the older image under a plane.
 ///
-/// Every pixel of the region in the newest image is carried by the plane's homography (6) into the
-/// older one, G = R + t n^T / h with (R, t) = T_old_cam and n pointing down, and compared
-/// bilinearly. The radial term that rectification left is applied on both sides.
+/// The plane's homography, equation (6), warps every pixel of the region in the newest image into
+/// the older one: G = R + t n^T / h with (R, t) = T_old_cam and n pointing down. Both are compared
+/// with bilinear interpolation. The radial term that rectification left is applied on both sides.
 ///
 /// Frames  cam of the newest image.  Units  that of t; grey levels.
 /// Memory  rays of the region, sized at construction.
@@ -29,7 +29,7 @@ struct PixelBox {
   }
 };
 
-/// The middle `width_ratio` of the lowest `height_ratio` of the image.
+/// Returns the middle `width_ratio` of the lowest `height_ratio` of the image.
 [[nodiscard]] PixelBox region_of(const CameraModel& camera, double width_ratio,
                                  double height_ratio);
 
@@ -37,11 +37,11 @@ class RoadRegion {
  public:
   RoadRegion(const CameraModel& camera, const PixelBox& box);
 
-  /// Takes the newest image's grey values. @pre image has the camera's size
+  /// Takes the grey values of the newest image. @pre image has the camera's size
   void take(const ImageView& image);
 
-  /// Mean absolute difference over the region to `old_image`, under the plane q = n / h; NaN when
-  /// less than half of the region lands in it.
+  /// Mean absolute difference between the region and `old_image` under the plane q = n / h; NaN
+  /// when less than half of the warped region lies in that image.
   [[nodiscard]] double sad(const ImageView& old_image, const Se3& T_old_cam,
                            const Eigen::Vector3d& q) const;
 

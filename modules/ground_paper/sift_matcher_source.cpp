@@ -11,14 +11,15 @@
 namespace plumb {
 namespace {
 
-// Road is low in contrast: a quarter of Lowe's threshold.
+// Roads have low contrast: a quarter of Lowe's threshold.
 constexpr double kContrast = 0.01;
 constexpr int kLayersPerOctave = 3;
 constexpr double kEdge = 10.0;
 constexpr double kSigma = 1.6;
 // Lowe's ratio of the nearest to the second nearest descriptor.
 constexpr float kRatio = 0.8F;
-// Descriptors reach this far beyond a feature; without it the region would lose its border.
+// Descriptors extend this far beyond a feature; without the margin the region would lose its
+// border.
 constexpr int kMarginPx = 16;
 constexpr int kDescriptorSize = 128;
 static_assert(kDescriptorSize % kNumLanes == 0);
@@ -28,10 +29,10 @@ struct Features {
   cv::Mat descriptors;
 };
 
-constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+constexpr std::size_t kNoMatch = static_cast<std::size_t>(-1);
 
 struct Nearest {
-  std::size_t index = kNobody;
+  std::size_t index = kNoMatch;
   float distance = std::numeric_limits<float>::infinity();
   float second = std::numeric_limits<float>::infinity();
 
@@ -46,7 +47,7 @@ struct Nearest {
   }
 };
 
-// Elements are whole numbers below 256, so the sum is exact in any order.
+// Elements are integers below 256, so that the sum is exact in any order.
 float squared_distance(const cv::Mat& a, std::size_t i, const cv::Mat& b, std::size_t j) {
   const float* p = a.ptr<float>(static_cast<int>(i));
   const float* q = b.ptr<float>(static_cast<int>(j));
@@ -121,7 +122,7 @@ std::span<const PixelMatch> SiftMatcher::match(std::size_t now, std::size_t old)
   }
   for (std::size_t i = 0; i < a.points.size(); ++i) {
     const Nearest& best = m.forward[i];
-    if (best.index == kNobody || !(best.distance < kRatio * kRatio * best.second)) continue;
+    if (best.index == kNoMatch || !(best.distance < kRatio * kRatio * best.second)) continue;
     if (m.backward[best.index].index != i) continue;
     const cv::Point2f p = a.points[i].pt;
     const cv::Point2f q = b.points[best.index].pt;

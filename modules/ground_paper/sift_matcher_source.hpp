@@ -1,8 +1,8 @@
 /// SIFT features of the road region in the last images, and matches between two of them.
 ///
-/// The only OpenCV of the ground module, and the only part of it that uses the heap after
-/// construction: OpenCV's detector sizes its scale space and its lists by itself, for every image.
-/// Sets OpenCV to one thread, so that results repeat.
+/// This is the only file of the ground algorithms that uses OpenCV, and the only one that uses the
+/// heap after construction: OpenCV's detector sizes its scale space and its lists for every image.
+/// It sets OpenCV to one thread, so that results repeat.
 ///
 /// Frames  img: full image, (0,0) is the centre of the upper left pixel.
 #pragma once
@@ -23,13 +23,13 @@ struct PixelMatch {
 
 class SiftMatcher {
  public:
-  /// Room for the features of `num_places` images.
+  /// Stores the features of up to `num_places` images.
   SiftMatcher(const PixelBox& box, std::size_t num_places);
   ~SiftMatcher();
   SiftMatcher(const SiftMatcher&) = delete;
   SiftMatcher& operator=(const SiftMatcher&) = delete;
 
-  /// Finds the features of `image` and keeps them at `place`. @pre the box lies in the image
+  /// Finds the features of `image` and stores them at `place`. @pre the box lies in the image
   void detect(std::size_t place, const ImageView& image);
 
   /// Mutual nearest neighbours that pass Lowe's ratio test; valid until the next call.

@@ -4,7 +4,6 @@
 
 #include "modules/chain/ground_algorithm.hpp"
 #include "modules/chain/plumb_config.hpp"
-#include "modules/ground/ground_model_source.hpp"
 #include "modules/ground/ground_node.hpp"
 #include "modules/mount/mount_node.hpp"
 #include "platform/clock.hpp"
@@ -16,10 +15,11 @@ class GroundProcess {
  public:
   GroundProcess(plumb::Process& process, const plumb::PlumbConfig& config)
       : process_(process),
+        models_(plumb::load_models(config.ground.model_file)),
         node_(
             config.ground, config.detections, &process.timer(),
             [this](const auto& plane, const auto& ego) { publish(plane, ego); },
-            plumb::load_ground_model(config.ground.model_file), plumb::make_ground_algorithm),
+            models_.ground, plumb::ground_factory(config, models_)),
         plane_(process.bus(), plumb::kGroundPlane),
         ego_(process.bus(), plumb::kEgoMotion),
         mount_(process.bus(), plumb::kMount),
@@ -80,6 +80,7 @@ class GroundProcess {
   }
 
   plumb::Process& process_;
+  plumb::TrainedModels models_;
   plumb::GroundNode node_;
   plumb::Publisher<plumb::ground_plane_t> plane_;
   plumb::Publisher<plumb::ego_motion_t> ego_;

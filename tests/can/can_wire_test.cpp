@@ -47,6 +47,7 @@ ground_plane_t make_plane(std::int64_t seq = 3) {
   m.cov[1][1] = 4e-6;
   m.cov[2][2] = 1e-4;
   m.num_cues = 3;
+  m.cues.resize(3);
   m.cues[0].status = 0;
   m.cues[1].status = 2;
   m.cues[2].status = 0;
@@ -205,6 +206,7 @@ TEST(CanWire, TheEndsOfEveryRangeAreAccepted) {
     ground_plane_t p = make_plane(0);
     p.reason = reason;
     p.num_cues = 0;
+    p.cues.clear();
     EXPECT_EQ(from_wire(p, default_messages(), &plane), nullptr);
     EXPECT_EQ(value_of(plane, "GroundDetail_CuesUsed"), 0);
   }

@@ -52,8 +52,8 @@ void expect_near(const MixtureComponent& found, const MixtureComponent& expected
   const double size = std::sqrt(expected.cov.trace());
   EXPECT_LT((found.mean - expected.mean).norm(), ratio * size);
   EXPECT_LT((found.cov - expected.cov).norm(), 2.0 * ratio * expected.cov.norm());
-  EXPECT_NEAR(placement_belief_px2(found), placement_belief_px2(expected),
-              2.0 * ratio * placement_belief_px2(expected));
+  EXPECT_NEAR(placement_confidence_px2(found), placement_confidence_px2(expected),
+              2.0 * ratio * placement_confidence_px2(expected));
 }
 
 TEST(CandidateMixture, RecoversOneGaussianFromAnOffsetStart) {
@@ -92,9 +92,9 @@ TEST(CandidateMixture, WiderCandidatesGiveALargerBeliefParameter) {
     add_samples({expected}, expected, 40, 0.01, &random, &fit);
     ASSERT_TRUE(fit.add_component(box_of(expected.mean), 0.9));
     ASSERT_TRUE(fit.fit(30));
-    const double belief = placement_belief_px2(fit.component(0));
-    EXPECT_GT(belief, 2.0 * last);
-    last = belief;
+    const double confidence = placement_confidence_px2(fit.component(0));
+    EXPECT_GT(confidence, 2.0 * last);
+    last = confidence;
   }
 }
 
@@ -121,7 +121,7 @@ TEST(CandidateMixture, SixteenCandidatesOfOneDetectionAreEnough) {
     ASSERT_TRUE(fit.add_component(box_of(expected.mean + Eigen::Vector4d(1, 1, -1, 1)), 0.9));
     ASSERT_TRUE(fit.fit(20));
     const double log_ratio =
-        std::log(placement_belief_px2(fit.component(0)) / placement_belief_px2(expected));
+        std::log(placement_confidence_px2(fit.component(0)) / placement_confidence_px2(expected));
     EXPECT_LT(std::abs(log_ratio), std::log(5.0)) << trial;
     log_ratio_sum += log_ratio;
   }

@@ -43,7 +43,8 @@ struct Rehearsal {
     vo.scale_carry_std = carry_std;
     return step(vo, k);
   }
-  const GroundOutput& step(const VoOutput& vo, int k, std::span<const ObjectNormal> objects = {}) {
+  const GroundOutput& step(const VoOutput& vo, int k,
+                           std::span<const ObjectsMeasurement> objects = {}) {
     GroundInput input;
     input.vo = &vo;
     input.objects = objects;
@@ -98,9 +99,9 @@ double pitch_error(bool with_objects, double bias, CueStatus* last_status) {
     test::script_vo(footage().poses, k, run.script, &vo);
     run.with_images = k < 6;
     const double n3 = test::plane_in(footage().poses[static_cast<std::size_t>(k)]).normal_cam.z();
-    const ObjectNormal objects{n3 + bias, 1e-6, 1e-6, 1.0};
-    const GroundOutput& out =
-        run.step(vo, k, with_objects ? std::span{&objects, 1} : std::span<const ObjectNormal>{});
+    const ObjectsMeasurement objects{n3 + bias, 1e-6, 1e-6, 1.0};
+    const GroundOutput& out = run.step(
+        vo, k, with_objects ? std::span{&objects, 1} : std::span<const ObjectsMeasurement>{});
     *last_status = out.plane.cues[kCueObjects].status;
     if (k >= 10) sum += (out.plane.normal_cam.z() - n3) * (out.plane.normal_cam.z() - n3);
   }
@@ -121,7 +122,7 @@ TEST(GroundEstimator, DetectedObjectsCarryThePitchWhenTheRoadIsNotSeen) {
 
 TEST(GroundEstimator, ObjectsTellNothingBeforeThereIsAPlaneOrAtRest) {
   Rehearsal run;
-  const ObjectNormal objects{0.0, 1e-6, 1e-6, 1.0};
+  const ObjectsMeasurement objects{0.0, 1e-6, 1e-6, 1.0};
   VoOutput vo;
   test::script_vo(footage().poses, 0, run.script, &vo);
   EXPECT_EQ(run.step(vo, 0, {&objects, 1}).plane.cues[kCueObjects].status, CueStatus::kAbsent);
@@ -271,6 +272,74 @@ TEST(GroundEstimator, RepeatsItselfBitForBit) {
   }
 }
 
+TEST(GroundEstimator, ReportsInnovationsAndTestRatiosOfTheCuesThatItFused) {
+  Rehearsal run;
+  for (int k = 0; k < 12; ++k) {
+    const GroundOutput& out = run.step(k);
+    if (k < 6) continue;
+    const CueReport& dense = out.plane.cues[kCueDense];
+    ASSERT_EQ(dense.status, CueStatus::kUsed);
+    EXPECT_TRUE(dense.innovation.allFinite());
+    EXPECT_LT(dense.innovation.cwiseAbs().maxCoeff(), 0.1);
+    EXPECT_GE(dense.test_ratio, 0.0);
+    EXPECT_LT(dense.test_ratio, 1.0);
+    const CueReport& points = out.plane.cues[kCuePoints];
+    EXPECT_TRUE(std::isnan(points.innovation(0)));
+    EXPECT_LT(std::abs(points.innovation(2)), 0.1);
+    EXPECT_TRUE(std::isnan(out.plane.cues[kCueObjects].test_ratio)) << "there are no objects";
+  }
+}
+
+TEST(GroundEstimator, FollowsACameraWhoseHeightChanges) {
+  GroundConfig config;
+  config.camera_height_m = test::kRoadHeight;
+  GroundEstimator estimator(config, footage().camera);
+  NullProbe probe;
+  test::VoScript script;
+  double before = 0.0;
+  for (int k = 0; k < 24; ++k) {
+    VoOutput vo;
+    test::script_vo(footage().poses, k, script, &vo);
+    GroundInput input{&vo, footage().images[static_cast<std::size_t>(k)].view()};
+    // From image 20 on, another source says that the camera stands 4 % higher. The pictures still
+    // show the old height, so that the scale has to move towards them afterwards.
+    if (k >= 20) input.camera_height = {1.04 * test::kRoadHeight, 0.02 * test::kRoadHeight};
+    const GroundOutput& out = estimator.update(input, probe);
+    if (k == 19) {
+      before = out.ego.log_scale;
+      EXPECT_LT(out.ego.log_scale_std, 0.02);
+    }
+    if (k == 20) {
+      EXPECT_NEAR(out.ego.log_scale, before, 0.02) << "the scale does not jump";
+      EXPECT_GT(out.ego.log_scale_std, 0.02) << "it is as uncertain as the height";
+    }
+  }
+}
+
+TEST(GroundEstimator, SettingsOfTheFilterTakeEffect) {
+  const auto log_scale_std = [](const GroundConfig& config) {
+    GroundEstimator estimator(config, footage().camera);
+    NullProbe probe;
+    test::VoScript script;
+    double std = 0.0;
+    for (int k = 0; k < 12; ++k) {
+      VoOutput vo;
+      test::script_vo(footage().poses, k, script, &vo);
+      std = estimator.update({&vo, footage().images[static_cast<std::size_t>(k)].view()}, probe)
+                .ego.log_scale_std;
+    }
+    return std;
+  };
+  const double usual = log_scale_std({});
+  GroundConfig drifting;
+  drifting.filter.scale_drift_std = 0.1;
+  EXPECT_GT(log_scale_std(drifting), 1.5 * usual);
+  GroundConfig strict;
+  strict.filter.start_dense_quality = strict.filter.least_dense_quality = 1.0;
+  strict.filter.start_points = strict.filter.least_points = 1000;
+  EXPECT_TRUE(std::isnan(log_scale_std(strict))) << "no cue is good enough to start";
+}
+
 /// Names of the stages in order.
 class NamesProbe final : public StageProbe {
  public:
@@ -289,7 +358,7 @@ TEST(GroundEstimator, MarksEveryStageInEveryFrame) {
     VoOutput vo;
     test::script_vo(footage().poses, k, run.script, &vo);
     run.estimator.update({&vo, footage().images[static_cast<std::size_t>(k)].view()}, probe);
-    EXPECT_EQ(probe.names(), "begin pyramid dense points fuse ego");
+    EXPECT_EQ(probe.names(), "begin pyramid dense points objects fuse ego");
   }
 }
 

@@ -1,4 +1,5 @@
-/// The ground library takes no memory after construction, and little before. A program of its own: it replaces malloc.
+/// The ground library takes no memory after construction, and little before. A program of its own:
+/// it replaces malloc.
 #include <gtest/gtest.h>
 
 #include "modules/ground/ground.hpp"

@@ -1,5 +1,6 @@
-/// Model files: the shipped one is the built-in one; what does not fit is refused. Features, bounds, covariances.
-#include "modules/ground/ground_model_source.hpp"
+/// Model files: the shipped one is the built-in one; what does not fit is refused. Features,
+/// bounds, covariances.
+#include "modules/chain/model_file_source.hpp"
 #include "plumb_paths.hpp"
 
 #include <gtest/gtest.h>
@@ -8,8 +9,9 @@
 #include <cmath>
 #include <map>
 
+#include "modules/ground/covariance/fixed_covariance.hpp"
 #include "modules/ground/covariance/learned_covariance.hpp"
-#include "modules/ground/filter/plane_filter.hpp"
+#include "modules/ground/types/plane_state.hpp"
 #include "platform/config.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -18,15 +20,17 @@ namespace {
 
 const std::string kShipped = std::string(PLUMB_SOURCE_DIR) + "/config/ground_model.toml";
 
-std::map<std::string, double> numbers_of(GroundModel model) {
+std::map<std::string, double> numbers_of(TrainedModels models) {
   std::map<std::string, double> numbers;
-  GroundModel::visit(model, [&](const char* key, double& value, double, double, const char*) {
+  const auto add = [&](const char* key, double& value, double, double, const char*) {
     numbers[key] = value;
-  });
+  };
+  GroundModel::visit(models.ground, add);
+  PaperModel::visit(models.paper, add);
   return numbers;
 }
 
-/// What load_ground_model says about the shipped file with `from` replaced by `to`.
+/// What load_models says about the shipped file with `from` replaced by `to`.
 std::string refusal(const std::string& from, const std::string& to) {
   std::string text = test::read_text(kShipped);
   const std::size_t at = text.find(from);
@@ -35,7 +39,7 @@ std::string refusal(const std::string& from, const std::string& to) {
   const test::TempFolder folder;
   const auto path = folder.write("model.toml", text);
   try {
-    (void)load_ground_model(path.string());
+    (void)load_models(path.string());
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -43,16 +47,16 @@ std::string refusal(const std::string& from, const std::string& to) {
 }
 
 TEST(GroundModel, ShippedFileIsTheBuiltInOne) {
-  EXPECT_EQ(numbers_of(load_ground_model(kShipped)), numbers_of(built_in_ground_model()));
-  EXPECT_EQ(numbers_of(load_ground_model("")), numbers_of(built_in_ground_model()));
-  EXPECT_FALSE(load_ground_model(kShipped).origin.drives.empty());
+  EXPECT_EQ(numbers_of(load_models(kShipped)), numbers_of(TrainedModels{}));
+  EXPECT_EQ(numbers_of(load_models("")), numbers_of(TrainedModels{}));
+  EXPECT_FALSE(load_models(kShipped).ground.origin.drives.empty());
 }
 
 TEST(GroundModel, TextComesBackAsTheSameModel) {
-  const GroundModel model = load_ground_model(kShipped);
+  const TrainedModels model = load_models(kShipped);
   const test::TempFolder folder;
-  const auto path = folder.write("model.toml", ground_model_text(model));
-  EXPECT_EQ(numbers_of(load_ground_model(path.string())), numbers_of(model));
+  const auto path = folder.write("model.toml", models_text(model));
+  EXPECT_EQ(numbers_of(load_models(path.string())), numbers_of(model));
 }
 
 TEST(GroundModel, FileThatDoesNotFitIsRefusedWithItsReason) {
@@ -67,7 +71,7 @@ TEST(GroundModel, FileThatDoesNotFitIsRefusedWithItsReason) {
             std::string::npos);
   EXPECT_NE(refusal("[travel]\nln_var = ", "[travel]\nln_var = \"x\" #").find("is not a number"),
             std::string::npos);
-  EXPECT_THROW((void)load_ground_model("/nonexistent/model.toml"), ConfigError);
+  EXPECT_THROW((void)load_models("/nonexistent/model.toml"), ConfigError);
 }
 
 TEST(GroundModel, VarianceStaysBetweenItsBounds) {
@@ -87,8 +91,8 @@ TEST(GroundModel, FeaturesAreZeroInAUsualFrameAndFiniteInAnyOther) {
   EXPECT_GT(step_feature(0.1), step_feature(0.5));
 }
 
-DenseObservation road_seen() {
-  DenseObservation dense;
+DenseMeasurement road_seen() {
+  DenseMeasurement dense;
   dense.ok = true;
   dense.q = Eigen::Vector3d(0.01, 1.0, 0.02) / 1.6;
   Eigen::Matrix3d A;
@@ -100,7 +104,7 @@ DenseObservation road_seen() {
 
 TEST(LearnedCovariance, IsMadeOfTheModelsVariances) {
   const GroundModel model = built_in_ground_model();
-  const DenseObservation dense = road_seen();
+  const DenseMeasurement dense = road_seen();
   const CueContext context{0.01, 0.6};
   const Eigen::Matrix3d cov = LearnedCovariance(model).dense(dense, context);
   const Eigen::Matrix3d pixel = state_information(dense).inverse();
@@ -117,14 +121,14 @@ TEST(LearnedCovariance, IsMadeOfTheModelsVariances) {
 
 TEST(LearnedCovariance, TrustsACueLessInATurnAndWithDoubt) {
   const LearnedCovariance learned(built_in_ground_model());
-  DenseObservation dense = road_seen();
+  DenseMeasurement dense = road_seen();
   const double straight = learned.dense(dense, {0.0, 0.6})(2, 2);
   EXPECT_GT(learned.dense(dense, {0.2, 0.6})(2, 2), 2.0 * straight);
   dense.ncc = 0.6;
   EXPECT_GT(learned.dense(dense, {0.0, 0.6})(2, 2), 1.5 * straight);
 }
 
-TEST(LearnedCovariance, DoubtsAPlaneThatItsCuesDispute) {
+TEST(LearnedCovariance, DoubtsAPlaneWithLargeResiduals) {
   GroundModel model = built_in_ground_model();
   for (LogVariance* v : {&model.plane_pitch, &model.plane_roll, &model.plane_height})
     *v = {std::log(1e-6), {1.0, 0.5, 0.0, 0.0}, 1e-5, 0.1};
@@ -139,26 +143,26 @@ TEST(LearnedCovariance, DoubtsAPlaneThatItsCuesDispute) {
   EXPECT_NEAR(learned.plane(context).pitch_rad2, 9e-6, 1e-11);
   EXPECT_NEAR(learned.plane(context).ln_height, 9e-6, 1e-11);
   EXPECT_EQ(learned.plane(context).roll_rad2, agree.roll_rad2);
-  context.travel_square = 8.0 * 9e-6;
+  context.chord_square = 8.0 * 9e-6;
   EXPECT_NEAR(learned.plane(context).pitch_rad2, 27e-6, 1e-11);
   context.dense_n1_square = 8.0 * 9e-6;
   EXPECT_NEAR(learned.plane(context).roll_rad2, 9e-6, 1e-11);
-  EXPECT_EQ(FloorCovariance().plane(context).pitch_rad2, 0.0);
+  EXPECT_EQ(FixedCovariance().plane(context).pitch_rad2, 0.0);
 }
 
 TEST(LearnedCovariance, CountsImagesOfTheSameRoadOnce) {
   const LearnedCovariance learned(built_in_ground_model());
-  const double at_10_hz = learned.dense_repetition({0.0, 0.6});
-  const double at_60_hz = learned.dense_repetition({0.0, 0.1});
+  const double at_10_hz = learned.dense_correlated_images({0.0, 0.6});
+  const double at_60_hz = learned.dense_correlated_images({0.0, 0.1});
   EXPECT_GE(at_10_hz, 1.0);
   // Six times as many images say as much as one did.
   EXPECT_NEAR(at_60_hz / at_10_hz, 6.0, 1.5);
 }
 
-TEST(WithHeightRepeated, GrowsTheHeightOnceTheNormalIsKnownAndLeavesTheTilt) {
+TEST(WithCorrelatedHeight, GrowsTheHeightOnceTheNormalIsKnownAndLeavesTheTilt) {
   const LearnedCovariance learned(built_in_ground_model());
   const Eigen::Matrix3d once = learned.dense(road_seen(), {0.0, 0.6});
-  const Eigen::Matrix3d thrice = with_height_repeated(once, 3.0);
+  const Eigen::Matrix3d thrice = with_correlated_height(once, 3.0);
   EXPECT_NEAR(once.inverse()(2, 2) / thrice.inverse()(2, 2), 3.0, 1e-9);
   EXPECT_EQ((thrice.topLeftCorner<2, 3>()), (once.topLeftCorner<2, 3>()));
 }

@@ -86,7 +86,7 @@ TEST(HeightFilter, TheLongestUnseenTrackGivesWayAndSeenOnesDoNot) {
   EXPECT_EQ(replaced.slot, 0u);
   for (int id = 200; id < 230; ++id) ASSERT_TRUE(filter.place_of(id, 1, 0.4, kCarVar, 2000).is_new);
   EXPECT_EQ(filter.place_of(300, 1, 0.4, kCarVar, 2000).slot, HeightFilter::kNone);
-  filter.forget_before(3000);
+  filter.drop_before(3000);
   EXPECT_TRUE(filter.place_of(300, 1, 0.4, kCarVar, 3000).is_new);
 }
 

@@ -7,12 +7,18 @@
 #include <limits>
 #include <random>
 
+#include "core/se3.hpp"
+#include "tests/ground/plane_observations.hpp"
 #include "tests/support/central_difference.hpp"
 
 namespace plumb {
 namespace {
 
 constexpr double kStepRatio = 0.6;
+
+using test::path_along;
+using test::plane_at;
+using test::point_at;
 
 PlaneFilter started(double ln_height) {
   PlaneFilter filter;
@@ -27,7 +33,7 @@ Eigen::Matrix3d plane_cov() {
 /// One frame of driving straight, with a plane measured as `state`.
 void drive_frame(PlaneFilter* filter, const Eigen::Vector3d& state) {
   filter->predict(Eigen::Matrix3d::Identity(), kStepRatio);
-  const bool used = filter->observe_plane(state, plane_cov());
+  const bool used = filter->fuse(plane_at(state, plane_cov())).accepted;
   filter->end_frame(used, !used);
 }
 
@@ -109,7 +115,7 @@ TEST(PlaneFilter, FollowsAnAnnouncedChangeOfUnitAtOnce) {
   EXPECT_NEAR(filter.state()(2), truth(2), 0.02);
 }
 
-TEST(PlaneFilter, ForgetsTheScaleWhenNothingIsKnownOfTheNewUnit) {
+TEST(PlaneFilter, ResetsWhenNothingIsKnownOfTheNewUnit) {
   PlaneFilter filter = started(0.0);
   filter.change_unit(std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(filter.started());
@@ -119,7 +125,8 @@ TEST(PlaneFilter, PointsTellHeightOnlyAsWellAsTheTiltIsKnown) {
   PlaneFilter filter = started(0.0);
   const double var_before = filter.cov()(2, 2);
   // Ten heights ahead, half a degree of tilt moves the height by nine per cent.
-  ASSERT_TRUE(filter.observe_point(filter.normal() + Eigen::Vector3d(0.0, 0.0, 10.0), 1e-6));
+  ASSERT_TRUE(
+      filter.fuse(point_at(filter.normal() + Eigen::Vector3d(0.0, 0.0, 10.0), 1e-6)).accepted);
   EXPECT_GT(filter.cov()(2, 2), 0.5 * var_before);
   EXPECT_GT(std::abs(filter.cov()(1, 2)), 0.0);
 }
@@ -163,8 +170,9 @@ PlaneFilter started_on_bends() {
 /// One frame straight on and level, under a road ahead that leaves the car's by `bend`.
 void drive_towards_bend(PlaneFilter* filter, double bend) {
   filter->predict(Eigen::Matrix3d::Identity(), kStepRatio);
-  filter->observe_travel(Eigen::Vector3d::UnitZ(), 0.003 * 0.003);
-  const bool used = filter->observe_plane({0.0, bend, kBend.height_slope * bend}, plane_cov());
+  filter->fuse(path_along(Eigen::Vector3d::UnitZ(), 0.003 * 0.003));
+  const bool used =
+      filter->fuse(plane_at({0.0, bend, kBend.height_slope * bend}, plane_cov())).accepted;
   filter->end_frame(used, !used);
 }
 
@@ -211,7 +219,7 @@ TEST(PlaneFilter, PlaneAheadVariesByTheBendUntilItIsSeen) {
 TEST(PlaneFilter, DeviationsMatchTheErrorsOfARoadThatBends) {
   std::mt19937 random(21);
   std::normal_distribution<double> normal(0.0, 1.0);
-  const double keep = std::exp(-kStepRatio / kBend.memory_ratio);
+  const double keep = std::exp(-kStepRatio / kBend.correlation_length_ratio);
   const double tilt = 0.13 * 0.017453292519943295;
   double ahead_sum = 0.0, here_sum = 0.0;
   int num = 0;
@@ -226,11 +234,11 @@ TEST(PlaneFilter, DeviationsMatchTheErrorsOfARoadThatBends) {
                                   truth(2) + kBend.height_slope * truth(3));
       filter.predict(Eigen::Matrix3d::Identity(), kStepRatio);
       const double slope = truth(1) + 0.003 * normal(random);
-      filter.observe_travel(Eigen::Vector3d(0.0, -slope, 1.0).normalized(), 0.003 * 0.003);
-      ASSERT_TRUE(filter.observe_plane(
-          ahead + Eigen::Vector3d(0.007 * normal(random), 0.007 * normal(random),
-                                  0.03 * normal(random)),
-          plane_cov()));
+      filter.fuse(path_along(Eigen::Vector3d(0.0, -slope, 1.0).normalized(), 0.003 * 0.003));
+      const Eigen::Vector3d seen =
+          ahead +
+          Eigen::Vector3d(0.007 * normal(random), 0.007 * normal(random), 0.03 * normal(random));
+      ASSERT_TRUE(filter.fuse(plane_at(seen, plane_cov())).accepted);
       filter.end_frame(true, false);
       if (k < 20) continue;
       const Eigen::Vector3d e_ahead = filter.ahead() - ahead;

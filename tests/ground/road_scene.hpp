@@ -1,6 +1,8 @@
-/// A flat textured road, seen exactly: images and VO results of a camera whose motion and plane are known.
+/// A flat textured road, seen exactly: images and VO results of a camera whose motion and plane are
+/// known.
 ///
-/// Frames  world: x right, y down, z forward; the road is the plane y = kRoadHeight below the world's origin.
+/// Frames  world: x right, y down, z forward; the road is the plane y = kRoadHeight below the
+///         world's origin.
 /// Units   metres; the simulated VO divides lengths by `metres_per_vo`.
 #pragma once
 

@@ -13,7 +13,7 @@ constexpr double kMu = 50.0;
 
 TEST(HeightVote, ScoresAsEquationEight) {
   const std::vector<double> heights{1.6, 1.7, 2.0};
-  const Vote vote = vote_height(heights, kMu);
+  const HeightVote vote = vote_height(heights, kMu);
   ASSERT_TRUE(vote.ok);
   EXPECT_EQ(vote.height, 1.7);
   EXPECT_NEAR(vote.score, std::exp(-50.0 * 0.1 * 0.1) + std::exp(-50.0 * 0.3 * 0.3), 1e-12);
@@ -26,7 +26,7 @@ TEST(HeightVote, WinsAgainstMoreOutliersThatDisagree) {
   std::vector<double> heights;
   for (int i = 0; i < 60; ++i) heights.push_back(rubbish(random));
   for (int i = 0; i < 40; ++i) heights.push_back(road(random));
-  const Vote vote = vote_height(heights, kMu);
+  const HeightVote vote = vote_height(heights, kMu);
   ASSERT_TRUE(vote.ok);
   EXPECT_NEAR(vote.height, 1.65, 0.04);
   EXPECT_GT(vote.score, 25.0);
@@ -45,10 +45,10 @@ TEST(HeightVote, GivesTheSameWinnerInAnyUnitOfLength) {
   std::uniform_real_distribution<double> rubbish(-2.0, 5.0);
   std::vector<double> heights;
   for (int i = 0; i < 50; ++i) heights.push_back(i % 3 == 0 ? rubbish(random) : road(random));
-  const Vote metric = vote_height_any_unit(heights, kMu, 1.65);
+  const HeightVote metric = vote_height_any_unit(heights, kMu, 1.65);
   std::vector<double> scaled = heights;
   for (double& h : scaled) h *= 0.37;
-  const Vote other = vote_height_any_unit(scaled, kMu, 1.65);
+  const HeightVote other = vote_height_any_unit(scaled, kMu, 1.65);
   ASSERT_TRUE(metric.ok && other.ok);
   EXPECT_NEAR(metric.height, 1.65, 0.06);
   EXPECT_NEAR(other.height, 0.37 * metric.height, 1e-12);

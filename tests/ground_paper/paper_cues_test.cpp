@@ -75,7 +75,7 @@ TEST(PaperDenseCue, FindsTheRenderedPlaneFromTheCalibratedOne) {
     const Views views{drive};
     PaperDenseCue cue(views.camera, views.box, kRho);
     cue.take(views.image.view());
-    const PaperDenseObservation seen =
+    const PaperDenseMeasurement seen =
         cue.measure(views.old_image.view(), views.T_old_cam, {0.0, 0.0, 1.1 * test::kRoadHeight});
     ASSERT_TRUE(seen.ok);
     EXPECT_NEAR(seen.z(kH), views.z(kH), 0.02 * views.z(kH));
@@ -149,7 +149,7 @@ TEST(PaperPointsCue, FindsTheHeightOfARenderedRoadBySift) {
   matcher.detect(1, views.image.view());
   const auto matches = matcher.match(1, 0);
   PaperPointsCue cue(views.camera, views.truth.normal_cam, kVoteMu);
-  const PaperPointsObservation seen = cue.measure(matches, views.T_old_cam);
+  const PaperPointsMeasurement seen = cue.measure(matches, views.T_old_cam);
   ASSERT_TRUE(seen.ok) << matches.size() << " matches";
   EXPECT_NEAR(seen.height, views.truth.height_m, 0.03 * views.truth.height_m);
   EXPECT_GT(seen.score, 5.0);

@@ -39,18 +39,19 @@ const Footage& footage() {
   return shared;
 }
 
-GroundConfig paper_config(const char* cues = "all", const char* covariance = "learned") {
-  GroundConfig config;
-  config.mode = "paper";
-  config.cues = cues;
-  config.covariance = covariance;
+PlumbConfig paper_config(const char* cues = "all", const char* covariance = "learned") {
+  PlumbConfig config;
+  config.ground_mode = "paper";
+  config.ground_paper.cues = cues;
+  config.ground.covariance = covariance;
   return config;
 }
 
 struct Rehearsal {
-  explicit Rehearsal(const GroundConfig& config) : ground(config, footage().camera) {}
+  explicit Rehearsal(const PlumbConfig& config)
+      : ground(config.ground, config.ground_paper, footage().camera) {}
 
-  const GroundOutput& step(int k, std::span<const ObjectNormal> objects = {}) {
+  const GroundOutput& step(int k, std::span<const ObjectsMeasurement> objects = {}) {
     test::script_vo(footage().poses, k, script, &vo);
     vo.scale_epoch = epoch;
     vo.scale_carry_std = carry_std;
@@ -104,15 +105,15 @@ TEST(PaperGround, FindsTheScaleWithEitherCueAlone) {
   }
 }
 
-TEST(PaperGround, FixedCovariancesDoNotFollowTheBelief) {
+TEST(PaperGround, FixedCovariancesDoNotFollowTheConfidence) {
   Rehearsal learned(paper_config());
   Rehearsal fixed(paper_config("all", "fixed"));
-  const PaperModel model = built_in_ground_model().paper;
+  const PaperModel model = built_in_paper_model();
   for (int k = 0; k < 10; ++k) {
     const GroundOutput& a = learned.step(k);
     const GroundOutput& b = fixed.step(k);
     if (k < 6) continue;
-    const CueObservation& adaptive = a.plane.cues[kCueDense];
+    const CueReport& adaptive = a.plane.cues[kCueDense];
     ASSERT_EQ(adaptive.num_features, 3);
     EXPECT_DOUBLE_EQ(adaptive.n1_var, model.dense_n1.of(adaptive.features[1]));
     EXPECT_DOUBLE_EQ(b.plane.cues[kCueDense].n1_var, model.dense_n1.mean);
@@ -125,7 +126,7 @@ TEST(PaperGround, TakesObjectsIntoTheSameFusion) {
   Rehearsal without(paper_config());
   Rehearsal with(paper_config());
   const double bad = std::numeric_limits<double>::quiet_NaN();
-  const std::array<ObjectNormal, 3> objects{{{0.03, 1e-7}, {0.03, 2e-7}, {bad, 1e-5}}};
+  const std::array<ObjectsMeasurement, 3> objects{{{0.03, 1e-7}, {0.03, 2e-7}, {bad, 1e-5}}};
   GroundOutput a, b;
   for (int k = 0; k < 10; ++k) {
     a = without.step(k);
@@ -174,9 +175,9 @@ TEST(PaperGround, RepeatsItselfBitForBit) {
   }
 }
 
-TEST(MakeGroundAlgorithm, GivesTheConfiguredOne) {
-  const auto ours = make_ground_algorithm(GroundConfig{}, footage().camera);
-  const auto paper = make_ground_algorithm(paper_config(), footage().camera);
+TEST(GroundFactory, MakesTheConfiguredAlgorithm) {
+  const auto ours = ground_factory(PlumbConfig{}, TrainedModels{})(footage().camera);
+  const auto paper = ground_factory(paper_config(), TrainedModels{})(footage().camera);
   EXPECT_NE(dynamic_cast<GroundEstimator*>(ours.get()), nullptr);
   EXPECT_NE(dynamic_cast<PaperGround*>(paper.get()), nullptr);
 }

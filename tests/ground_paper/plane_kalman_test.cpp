@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <random>
 
-#include "modules/ground/covariance/ground_model.hpp"
+#include "modules/ground_paper/paper_model.hpp"
 #include "tests/ground/road_scene.hpp"
 
 namespace plumb {
@@ -90,7 +90,7 @@ TEST(LinearVariance, StaysInItsRangeAndDistrustsWhatHasNoBelief) {
 }
 
 TEST(LinearVariance, OfTheBuiltInModelGrowsWithDoubt) {
-  const PaperModel model = built_in_ground_model().paper;
+  const PaperModel model = built_in_paper_model();
   for (const LinearVariance* line : {&model.dense_n1, &model.dense_n3, &model.dense_h}) {
     EXPECT_GT(line->slope, 0.0);
   }

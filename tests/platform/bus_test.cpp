@@ -138,6 +138,8 @@ TEST_F(BusTest, CarriesAMessageUnchanged) {
   ground_plane_t sent{};
   sent.seq = -7;
   sent.height_m = 1.0 / 3.0;
+  sent.num_cues = 3;
+  sent.cues.resize(3);
   sent.cues[2].n3 = -0.0;
   sent.cov[2][1] = 5e-324;  // the smallest positive number
   EXPECT_TRUE(out.publish(sent));

@@ -16,7 +16,7 @@ struct Counter final : CanSink {
 
 TEST(PaperMode, FollowsARenderedDriveThroughTheWholeChain) {
   PlumbConfig config;
-  config.ground.mode = "paper";
+  config.ground_mode = "paper";
   Counter can;
   double x_m = 0.0, z_m = 0.0;
   int num_ok = 0;
@@ -33,7 +33,7 @@ TEST(PaperMode, FollowsARenderedDriveThroughTheWholeChain) {
       ASSERT_NE(output, nullptr);
       EXPECT_EQ(output->seq, record.seq);
       EXPECT_EQ(output->plane.cues[kCueDense].num_features, 3);
-      EXPECT_EQ(running->ground().sight(), nullptr);
+      EXPECT_EQ(running->ground().diagnostics(), nullptr);
     }
     x_m = record.ego->t_world_cam_m[0];
     z_m = record.ego->t_world_cam_m[2];

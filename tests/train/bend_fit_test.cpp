@@ -1,4 +1,4 @@
-/// How roads bend and how well the direction of travel is known, out of drives drawn with both.
+/// How roads bend and how well the direction of translation is known, out of drives drawn with both.
 #include "tools/learn/train/bend_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 struct Drawn {
   RoadBend bend;
-  double travel_std = 0.0;
+  double chord_std = 0.0;
 };
 
 /// Three drives of `num` frames, half a camera height each, over roads that bend by a first-order process.
@@ -26,9 +26,9 @@ std::vector<DriveSamples> drives_over(const Drawn& drawn, int num) {
     drives.push_back(test::draw_drive(name, num, drives.size(), 0.01));
     double bend = drawn.bend.start_std * normal(random);
     for (Sample& s : drives.back().frames) {
-      const double keep = std::exp(-s.step_ratio / drawn.bend.memory_ratio);
+      const double keep = std::exp(-s.step_ratio / drawn.bend.correlation_length_ratio);
       bend = keep * bend + std::sqrt(1.0 - keep * keep) * drawn.bend.start_std * normal(random);
-      s.travel_err = s.travel_ref = bend + drawn.travel_std * normal(random);
+      s.chord_err = s.chord_ref = bend + drawn.chord_std * normal(random);
       s.true_height_m =
           s.nominal_height_m * std::exp(drawn.bend.height_slope * bend + 0.004 * normal(random));
     }
@@ -41,7 +41,7 @@ TEST(BendFit, FindsTheRoadsThatDrivesWereDrawnOver) {
   const auto bend = fit_bend(drives_over({drawn, 0.001}, 3000));
   ASSERT_TRUE(bend.has_value());
   EXPECT_NEAR(bend->start_std, drawn.start_std, 0.0008);
-  EXPECT_NEAR(bend->memory_ratio, drawn.memory_ratio, 0.5);
+  EXPECT_NEAR(bend->correlation_length_ratio, drawn.correlation_length_ratio, 0.5);
   EXPECT_NEAR(bend->height_slope, drawn.height_slope, 0.15);
 }
 
@@ -55,17 +55,17 @@ TEST(BendFit, NeedsTruePlanes) {
 TEST(BendFit, KeepsAMemoryThatAModelMayHoldWhereBendsAreNoise) {
   const auto bend = fit_bend(drives_over({{0.008, 1e-3, 2.2}, 0.001}, 300));
   ASSERT_TRUE(bend.has_value());
-  EXPECT_GE(bend->memory_ratio, 0.1);
-  EXPECT_LT(bend->memory_ratio, 0.5);
+  EXPECT_GE(bend->correlation_length_ratio, 0.1);
+  EXPECT_LT(bend->correlation_length_ratio, 0.5);
 }
 
 TEST(BendFit, DoesNotTakeBendsForNoiseOfTheDirectionOfTravel) {
-  const auto travel_std = [](const Drawn& drawn) {
+  const auto chord_std = [](const Drawn& drawn) {
     const GroundModel model = fit_targets(drives_over(drawn, 600), built_in_ground_model());
-    return std::sqrt(model.travel.of({}));
+    return std::sqrt(model.chord.of({}));
   };
-  EXPECT_NEAR(travel_std({{0.012, 200.0, 2.2}, 0.003}), 0.003, 0.0007);
-  EXPECT_NEAR(travel_std({{0.012, 200.0, 2.2}, 0.006}), 0.006, 0.0012);
+  EXPECT_NEAR(chord_std({{0.012, 200.0, 2.2}, 0.003}), 0.003, 0.0007);
+  EXPECT_NEAR(chord_std({{0.012, 200.0, 2.2}, 0.006}), 0.006, 0.0012);
 }
 
 }  // namespace

@@ -64,9 +64,9 @@ inline DriveSamples draw_drive(const std::string& name, int num, std::uint64_t s
     s.points_err = 0.02 * normal(random);
     s.points_ref_var = 0.0;
     s.points_hand_var = 3.2e-3;
-    s.travel_err = s.travel_ref = 0.005 * normal(random);
-    s.travel_num_frames = 5.0;
-    s.travel_hand_var = 2.7e-5;
+    s.chord_err = s.chord_ref = 0.005 * normal(random);
+    s.chord_num_frames = 5.0;
+    s.chord_hand_var = 2.7e-5;
     drive.frames.push_back(s);
   }
   return drive;

@@ -25,22 +25,22 @@ TEST(Fit, FindsTheDeviationsOfEveryCue) {
   EXPECT_NEAR(std_of(model.dense_n1), 0.005, 0.0008);
   EXPECT_NEAR(std_of(model.dense_n3), 0.004, 0.0006);
   EXPECT_NEAR(std_of(model.points), 0.02, 0.003);
-  EXPECT_NEAR(std_of(model.travel), 0.005, 0.0008);
+  EXPECT_NEAR(std_of(model.chord), 0.005, 0.0008);
 }
 
 TEST(Fit, FindsHowLongErrorsStayAlike) {
   const double correlation = 0.8;
   const GroundModel model = fit_targets(three_drives(0.01, correlation), built_in_ground_model());
   // A first-order process: (1 + r) / (1 - r) = 9 images share one error; the sum is cut at 15 images.
-  EXPECT_NEAR(repetition_of(model.dense_memory_ratio, 0.5), 9.0, 2.5);
-  EXPECT_LT(repetition_of(model.points_memory_ratio, 0.5), 2.0);
+  EXPECT_NEAR(correlated_images(model.dense_correlation_length_ratio, 0.5), 9.0, 2.5);
+  EXPECT_LT(correlated_images(model.points_correlation_length_ratio, 0.5), 2.0);
 }
 
 TEST(Fit, TurnsARepetitionIntoAMemoryAndBack) {
-  for (const double repetition : {1.5, 4.0, 20.0})
-    EXPECT_NEAR(repetition_of(memory_of_repetition(repetition, 0.6), 0.6), repetition, 1e-9);
-  EXPECT_EQ(memory_of_repetition(1.0, 0.6), 0.0);
-  EXPECT_NEAR(repetition_of(0.0, 0.6), 1.0, 1e-12);
+  for (const double num_images : {1.5, 4.0, 20.0})
+    EXPECT_NEAR(correlated_images(correlation_length_of(num_images, 0.6), 0.6), num_images, 1e-9);
+  EXPECT_EQ(correlation_length_of(1.0, 0.6), 0.0);
+  EXPECT_NEAR(correlated_images(0.0, 0.6), 1.0, 1e-12);
 }
 
 TEST(Fit, WidensWhereDrivesDifferMoreThanTheirFrames) {
@@ -65,8 +65,8 @@ TEST(Fit, TellsTiltFromHeightWhereThereIsNoTruePlane) {
   for (DriveSamples& drive : drives) {
     for (Sample& s : drive.frames) {
       s.has_plane = 0.0;
-      s.dense_err_n1 = s.dense_err_n3 = s.travel_err = Sample::kNone;
-      s.travel_ref = 0.0;
+      s.dense_err_n1 = s.dense_err_n3 = s.chord_err = Sample::kNone;
+      s.chord_ref = 0.0;
     }
   }
   GroundModel start = built_in_ground_model();
@@ -101,7 +101,7 @@ std::vector<DriveSamples> three_planes(double added_var_of_that_run) {
       const double apart = std::abs(0.01 * normal(random));
       const double filter_var = 0.002 * 0.002;
       s.out_dense_n1_square = s.out_dense_n3_square = apart * apart;
-      s.out_travel_square = 0.0;
+      s.out_chord_square = 0.0;
       s.out_pitch_added_var = s.out_roll_added_var = s.out_height_added_var = added_var_of_that_run;
       s.out_pitch_var = s.out_roll_var = s.out_height_var = filter_var + added_var_of_that_run;
       const double std = std::sqrt(filter_var + 1e-6 * (1.0 + apart * apart / 9e-6));
@@ -147,9 +147,9 @@ TEST(Fit, FindsHowObjectsErrByTheirOwnVarianceAndHowLong) {
     double memory = normal(random);
     for (std::size_t i = 0; i < drive.frames.size(); ++i) {
       memory = 0.6 * memory + 0.8 * normal(random);
-      const double belief = 1e-5 * (1.0 + 3.0 * static_cast<double>(i % 50) / 50.0);
-      drive.frames[i].objects_belief = belief;
-      drive.frames[i].objects_err_n3 = std::sqrt(2.0 * belief) * memory;
+      const double confidence = 1e-5 * (1.0 + 3.0 * static_cast<double>(i % 50) / 50.0);
+      drive.frames[i].objects_confidence = confidence;
+      drive.frames[i].objects_err_n3 = std::sqrt(2.0 * confidence) * memory;
     }
   }
   GroundModel model = built_in_ground_model();
@@ -157,14 +157,14 @@ TEST(Fit, FindsHowObjectsErrByTheirOwnVarianceAndHowLong) {
   ASSERT_TRUE(fit.has_value());
   EXPECT_NEAR(model.objects_n3.slope, 2.0, 0.5);
   EXPECT_NEAR(model.objects_n3.of(2e-5), 4e-5, 5e-6);
-  EXPECT_NEAR(model.objects_repetition, (1.0 + 0.6) / (1.0 - 0.6), 1.2);
+  EXPECT_NEAR(model.objects_correlated_images, (1.0 + 0.6) / (1.0 - 0.6), 1.2);
 }
 
 TEST(Fit, WithoutObjectsTheirModelStays) {
   GroundModel model = built_in_ground_model();
-  model.objects_repetition = 7.5;
+  model.objects_correlated_images = 7.5;
   EXPECT_FALSE(fit_objects(three_drives(), &model).has_value());
-  EXPECT_EQ(model.objects_repetition, 7.5);
+  EXPECT_EQ(model.objects_correlated_images, 7.5);
 }
 
 TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
@@ -173,8 +173,8 @@ TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
   const auto scores = leave_one_out(drives, built_in_ground_model());
   ASSERT_EQ(scores.size(), 3U * (kTargets.size() - kPlaneTargets.size()));
   for (const HeldOutScore& s : scores) {
-    // The direction of travel is held against itself five frames before.
-    EXPECT_EQ(s.learned.num, s.target == Target::kTravel ? 295 : 300) << s.drive;
+    // The direction of translation is held against itself five frames before.
+    EXPECT_EQ(s.learned.num, s.target == Target::kChord ? 295 : 300) << s.drive;
     if (s.target != Target::kPoints) continue;
     if (s.drive == "c") {
       EXPECT_NEAR(s.learned.nees, 9.0, 2.5);  // the others do not know of it
@@ -190,26 +190,26 @@ TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
 }
 
 TEST(BeliefLine, HasBinsOfEqualCount) {
-  std::vector<Belief> beliefs;
-  for (int i = 0; i < 1000; ++i) beliefs.push_back({(7 * i % 1000) * 0.01, 1.0});
-  const auto bins = bin_beliefs(beliefs, kNumBeliefBins);
+  std::vector<Confidence> confidences;
+  for (int i = 0; i < 1000; ++i) confidences.push_back({(7 * i % 1000) * 0.01, 1.0});
+  const auto bins = bin_confidences(confidences, kNumConfidenceBins);
   ASSERT_EQ(bins.size(), 100U);
   for (std::size_t i = 0; i < bins.size(); ++i) {
     EXPECT_EQ(bins[i].num, 10);
     EXPECT_NEAR(bins[i].centre, 0.1 * static_cast<double>(i) + 0.045, 1e-9);
   }
-  EXPECT_EQ(bin_beliefs({{1.0, 1.0}, {2.0, 1.0}, {3.0, 1.0}}, 100).size(), 1U);
+  EXPECT_EQ(bin_confidences({{1.0, 1.0}, {2.0, 1.0}, {3.0, 1.0}}, 100).size(), 1U);
 }
 
 TEST(BeliefLine, FindsTheLineThatErrorsWereDrawnFrom) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
-  std::vector<Belief> beliefs;
+  std::vector<Confidence> confidences;
   for (int i = 0; i < 20000; ++i) {
-    const double belief = 0.02 + 0.2 * i / 20000.0;
-    beliefs.push_back({belief, normal(random) * std::sqrt(0.002 + 0.02 * belief)});
+    const double confidence = 0.02 + 0.2 * i / 20000.0;
+    confidences.push_back({confidence, normal(random) * std::sqrt(0.002 + 0.02 * confidence)});
   }
-  const LinearVariance line = fit_line(bin_beliefs(beliefs, kNumBeliefBins));
+  const LinearVariance line = fit_line(bin_confidences(confidences, kNumConfidenceBins));
   EXPECT_NEAR(line.offset, 0.002, 3e-4);
   EXPECT_NEAR(line.slope, 0.02, 0.003);
   EXPECT_GT(line.most, line.mean);

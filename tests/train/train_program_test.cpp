@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "modules/ground/ground_model_source.hpp"
+#include "modules/chain/model_file_source.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/train/drawn.hpp"
@@ -29,7 +29,7 @@ TEST_F(TrainProgram, MakesAModelOutOfSamplesThatTheLoaderTakes) {
                           " --hold-out c --out " + path("m.toml") + " --json " + path("m.json") +
                           " --plots " + path("plots"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const GroundModel model = load_ground_model(path("m.toml"));
+  const GroundModel model = load_models(path("m.toml")).ground;
   EXPECT_NEAR(model.dense_height.of({}), 1e-4, 5e-5);
   EXPECT_EQ(model.origin.drives, "a b");
   EXPECT_NE(model.origin.command.find("--hold-out c"), std::string::npos);

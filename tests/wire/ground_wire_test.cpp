@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <cmath>
+#include <fstream>
 #include <functional>
+#include <string>
 
 #include "core/numbers.hpp"
+#include "plumb_paths.hpp"
 #include "tests/wire/sample_output.hpp"
 
 namespace plumb {
@@ -52,6 +57,8 @@ TEST(GroundWire, RoundTripsEveryField) {
     EXPECT_EQ(sent.plane.cues[i].n1_var, back.plane.cues[i].n1_var);
     EXPECT_EQ(sent.plane.cues[i].n3_var, back.plane.cues[i].n3_var);
     EXPECT_EQ(sent.plane.cues[i].quality, back.plane.cues[i].quality);
+    EXPECT_EQ(sent.plane.cues[i].innovation, back.plane.cues[i].innovation);
+    EXPECT_EQ(sent.plane.cues[i].test_ratio, back.plane.cues[i].test_ratio);
   }
   EXPECT_EQ(sent.ego.status, back.ego.status);
   EXPECT_EQ(sent.ego.reason, back.ego.reason);
@@ -72,9 +79,9 @@ TEST(GroundWire, RoundTripsEveryField) {
   EXPECT_EQ(sent.ego.log_scale_std, back.ego.log_scale_std);
 }
 
-TEST(GroundWire, RefusesAPlaneThatIsNoneWhenItSaysItHolds) {
+TEST(GroundWire, RefusesAnInvalidPlaneWhoseStatusSaysThatItIsValid) {
   EXPECT_EQ("", refused_plane([](ground_plane_t*) {}));
-  const std::string none = "ground plane: says that the plane holds, but it is none";
+  const std::string none = "ground plane: its status says that the plane is valid, but it is not";
   EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->normal_cam[1] = 0.9; }));
   EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->normal_cam[0] = kNan; }));
   EXPECT_EQ(none, refused_plane([](ground_plane_t* m) { m->height_m = 0.0; }));
@@ -90,11 +97,57 @@ TEST(GroundWire, RefusesAPlaneThatIsNoneWhenItSaysItHolds) {
 TEST(GroundWire, RefusesUnknownNumbersInThePlane) {
   EXPECT_EQ("ground plane: unknown status", refused_plane([](auto* m) { m->status = 4; }));
   EXPECT_EQ("ground plane: unknown reason", refused_plane([](auto* m) { m->reason = -1; }));
-  EXPECT_EQ("ground plane: not 3 cues", refused_plane([](auto* m) { m->num_cues = 4; }));
+  const std::string wrong_number = "ground plane: wrong number of cues";
+  EXPECT_EQ(wrong_number, refused_plane([](auto* m) { m->num_cues = 4; })) << "3 are there";
+  EXPECT_EQ(wrong_number, refused_plane([](auto* m) { m->num_cues = -1; }));
+  EXPECT_EQ(wrong_number, refused_plane([](auto* m) {
+              m->num_cues = ground_plane_t::MAX_CUES + 1;
+              m->cues.resize(ground_plane_t::MAX_CUES + 1);
+            }));
   EXPECT_EQ("ground plane: unknown cue status",
             refused_plane([](auto* m) { m->cues[2].status = 4; }));
   EXPECT_EQ("ground plane: not a covariance", refused_plane([](auto* m) { m->cov[0][0] = -1.0; }));
   EXPECT_EQ("", refused_plane([](auto* m) { m->cues[0].height = kNan; })) << "not observed";
+}
+
+TEST(GroundWire, TakesMoreOrFewerCuesThanThisProgramKnows) {
+  ground_plane_t plane{};
+  ego_motion_t ego{};
+  to_wire(test::sample_ground_output(), &plane);
+  to_wire(test::sample_ground_output(), &ego);
+  ASSERT_EQ(plane.cues.size(), kNumCues);
+  GroundOutput read;
+  plane.num_cues = 1;
+  plane.cues.resize(1);
+  ASSERT_EQ(from_wire(plane, ego, &read), nullptr);
+  EXPECT_EQ(read.plane.cues[kCueDense].status, CueStatus::kGated);
+  EXPECT_EQ(read.plane.cues[kCuePoints].status, CueStatus::kAbsent);
+  EXPECT_TRUE(std::isnan(read.plane.cues[kCuePoints].height));
+  plane.num_cues = ground_plane_t::MAX_CUES;
+  plane.cues.resize(ground_plane_t::MAX_CUES);
+  plane.cues.back().status = static_cast<std::int8_t>(CueStatus::kFailed);
+  EXPECT_EQ(from_wire(plane, ego, &read), nullptr);
+  plane.cues.back().status = 9;
+  EXPECT_STREQ(from_wire(plane, ego, &read), "ground plane: unknown cue status");
+}
+
+/// "const int8_t CUE_DENSE = 0;" lines of ground_plane_t.lcm, in order: the message names its cues
+/// as kCueTable does.
+TEST(GroundWire, TheMessageNamesTheCuesOfTheTable) {
+  std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/lcmtypes/ground_plane_t.lcm");
+  ASSERT_TRUE(file.good());
+  std::size_t num = 0;
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t at = line.find(" CUE_");
+    if (line.find("const int8_t") == std::string::npos || at == std::string::npos) continue;
+    ASSERT_LT(num, kNumCues) << line;
+    std::string name = kCueTable[num].name;
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    EXPECT_EQ(line.substr(at + 5, name.size() + 1), name + " ") << line;
+    EXPECT_NE(line.find("= " + std::to_string(num) + ";"), std::string::npos) << line;
+    ++num;
+  }
+  EXPECT_EQ(num, kNumCues);
 }
 
 TEST(GroundWire, RefusesAMotionThatIsNone) {
@@ -112,7 +165,7 @@ TEST(GroundWire, RefusesAMotionThatIsNone) {
   EXPECT_EQ("", refused_ego([](auto* m) { m->accel_forward_m_s2 = kNan; })) << "not observable";
 }
 
-TEST(GroundWire, TakesRatesThatDoNotHoldWhenTheMotionSaysSo) {
+TEST(GroundWire, TakesInvalidRatesWhenTheMotionSaysSo) {
   ground_plane_t plane{};
   ego_motion_t ego{};
   to_wire(test::sample_ground_output(), &plane);

@@ -1,5 +1,5 @@
-// Tests the nodes of vo and ground: calibration rules,
-// refused messages, and the pairing of motions with images.
+// Tests the nodes of vo and ground: calibration rules, refused messages, and the pairing of motions
+// with images.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -215,6 +215,35 @@ TEST_F(GroundNodeTest, TakesDetectionsUntilTheirTurnIsOver) {
                node_->take_detections(message));
   message.num_detections = -1;
   EXPECT_NE(nullptr, node_->take_detections(message));
+}
+
+/// Notes the camera height that it is given.
+class HeightRecorder final : public GroundAlgorithm {
+ public:
+  explicit HeightRecorder(std::vector<double>* heights_m) : heights_m_(heights_m) {}
+  const GroundOutput& update(const GroundInput& input, StageProbe& /*probe*/) override {
+    heights_m_->push_back(input.camera_height.height_m);
+    return output_;
+  }
+
+ private:
+  std::vector<double>* heights_m_;
+  GroundOutput output_;
+};
+
+TEST_F(GroundNodeTest, HandsTheNewestCameraHeightToEveryFrame) {
+  std::vector<double> heights_m;
+  node_ = std::make_unique<GroundNode>(
+      GroundConfig{}, DetectionsConfig{}, &probe_,
+      [](const ground_plane_t& /*plane*/, const ego_motion_t& /*ego*/) {}, GroundModel{},
+      [&](const CameraModel&) { return std::make_unique<HeightRecorder>(&heights_m); });
+  calibrate();
+  image(1);
+  motion(1);
+  node_->set_camera_height({1.58, 0.01});
+  image(2);
+  motion(2);
+  EXPECT_EQ(heights_m, (std::vector<double>{1.65, 1.58}));
 }
 
 TEST_F(GroundNodeTest, RefusesAMotionThatBreaksItsContract) {

@@ -61,8 +61,9 @@ inline GroundOutput sample_ground_output() {
   o.plane.cov = sample_covariance<3>();
   for (std::size_t i = 0; i < kNumCues; ++i) {
     const double k = 1.0 + static_cast<double>(i);
-    o.plane.cues[i] = {CueStatus::kGated, 1.5 * k, 0.1 * k, 0.2 * k,
-                       0.3 * k,           0.4 * k, 0.5 * k, 0.9};
+    o.plane.cues[i] = {
+        CueStatus::kGated,   1.5 * k, 0.1 * k, 0.2 * k, 0.3 * k, 0.4 * k, 0.5 * k, 0.9,
+        {0.6 * k, 0.7, 0.8}, 1.1 * k};
   }
   o.ego.status = EgoStatus::kScaleHeld;
   o.ego.reason = VoReason::kLowParallax;

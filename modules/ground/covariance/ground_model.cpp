@@ -1,7 +1,9 @@
 #include "modules/ground/covariance/ground_model.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
+
+#include "modules/ground/covariance/built_in_numbers.hpp"
 
 namespace plumb {
 namespace {
@@ -12,17 +14,7 @@ constexpr double kUsualStepRatio = 0.5;
 constexpr double kUsualPoints = 10.0;
 constexpr double kUsualSpread = 0.02;
 constexpr double kLeastNcc = 0.1;
-constexpr double kUsualDissent = 0.003;
-
-struct BuiltIn {
-  const char* key;
-  double value;
-};
-
-// {"section.key", value}, written by the build out of config/ground_model.toml.
-constexpr BuiltIn kBuiltIn[] = {
-#include "ground_model_numbers.inc"
-};
+constexpr double kUsualResidual = 0.003;
 
 }  // namespace
 
@@ -47,16 +39,16 @@ CueFeatures points_features(double num_inliers, double spread, double turn_ratio
           step_feature(step_ratio)};
 }
 
-CueFeatures travel_features(double turn_ratio, double step_ratio) {
+CueFeatures chord_features(double turn_ratio, double step_ratio) {
   return {0.0, 0.0, turn_feature(turn_ratio), step_feature(step_ratio)};
 }
 
-CueFeatures plane_features(double dense_square, double travel_square, double turn_ratio,
+CueFeatures plane_features(double dense_square, double chord_square, double turn_ratio,
                            double step_ratio) {
-  const auto dissent = [](double square) {
-    return std::log1p(std::min(square, 1.0) / (kUsualDissent * kUsualDissent));
+  const auto residual = [](double square) {
+    return std::log1p(std::min(square, 1.0) / (kUsualResidual * kUsualResidual));
   };
-  return {dissent(dense_square), dissent(travel_square), turn_feature(turn_ratio),
+  return {residual(dense_square), residual(chord_square), turn_feature(turn_ratio),
           step_feature(step_ratio)};
 }
 
@@ -69,8 +61,7 @@ double LogVariance::of(const CueFeatures& features) const {
 GroundModel built_in_ground_model() {
   GroundModel model;
   GroundModel::visit(model, [](const char* key, double& value, double, double, const char*) {
-    for (const BuiltIn& number : kBuiltIn)
-      if (std::strcmp(number.key, key) == 0) value = number.value;
+    take_built_in_number(key, &value);
   });
   return model;
 }

@@ -1,17 +1,19 @@
-/// What training found out about the cues: how far each one's error scatters, by what is known in the frame.
+/// The trained model of the cues: it predicts the variance of each cue's error from features of the
+/// frame.
 ///
-/// A cue's variance is exp(ln_var + sum of slope times feature), kept between two bounds. Features are zero in a usual
-/// frame (straight on, one step of half a camera height, sharp agreement of the images), so ln_var is the usual frame's.
+/// A variance is exp(ln_var + sum of slope times feature), kept between two bounds. All features
+/// are zero in a usual frame (straight on, one step of half a camera height, images that agree
+/// well), so ln_var belongs to the usual frame.
 ///
-/// Units  of the state (n1, n3, ln h); the published method's in metres (paper_model.hpp).
+/// Units  of the state (n1, n3, ln h).
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <string>
 
-#include "modules/ground/covariance/paper_model.hpp"
 #include "modules/ground/filter/road_bend.hpp"
+#include "modules/ground/types/linear_variance.hpp"
 
 namespace plumb {
 
@@ -19,7 +21,7 @@ inline constexpr int kGroundModelVersion = 4;
 inline constexpr std::size_t kNumCueFeatures = 4;
 using CueFeatures = std::array<double, kNumCueFeatures>;
 
-/// Which number of CueFeatures is what.
+/// Indices into CueFeatures.
 enum DenseFeature : std::size_t {
   kDensePixel = 0,
   kDenseDoubt = 1,
@@ -34,24 +36,26 @@ enum PointsFeature : std::size_t {
 };
 enum PlaneFeature : std::size_t {
   kPlaneDense = 0,
-  kPlaneTravel = 1,
+  kPlaneChord = 1,
   kPlaneTurn = 2,
   kPlaneStep = 3
 };
 
-/// Grows with the path's curvature times camera height, from 0 when straight on: calibration's leftovers bend the flow.
+/// Zero when straight on, and growing with the path's curvature times camera height: residual
+/// calibration errors bend the optical flow in turns.
 [[nodiscard]] double turn_feature(double turn_ratio);
-/// Above 0 for steps shorter than half a camera height.
+/// Positive for steps shorter than half a camera height.
 [[nodiscard]] double step_feature(double step_ratio);
-/// `pixel_var`: of the component, by pixel noise alone.
+/// `pixel_var`: variance of the component from pixel noise alone.
 [[nodiscard]] CueFeatures dense_features(double pixel_var, double ncc, double turn_ratio,
                                          double step_ratio);
 [[nodiscard]] CueFeatures points_features(double num_inliers, double spread, double turn_ratio,
                                           double step_ratio);
-/// Turn and step only.
-[[nodiscard]] CueFeatures travel_features(double turn_ratio, double step_ratio);
-/// Of the reported plane: squares of the angles by which dense cue and direction of travel leave the fused normal.
-[[nodiscard]] CueFeatures plane_features(double dense_square, double travel_square,
+/// Only turn and step are used.
+[[nodiscard]] CueFeatures chord_features(double turn_ratio, double step_ratio);
+/// For the reported plane. The squares are those of PlaneContext: angles between the dense cue, or
+/// the direction of translation, and the fused plane.
+[[nodiscard]] CueFeatures plane_features(double dense_square, double chord_square,
                                          double turn_ratio, double step_ratio);
 
 struct LogVariance {
@@ -63,7 +67,7 @@ struct LogVariance {
   [[nodiscard]] double of(const CueFeatures& features) const;
 };
 
-/// Where the numbers come from.
+/// Which drives and command the numbers come from.
 struct ModelOrigin {
   std::string drives;
   std::string command;
@@ -76,26 +80,26 @@ struct GroundModel {
   LogVariance dense_n3;
   LogVariance dense_height;  ///< of ln h once the normal is known
   LogVariance points;        ///< of ln h once the normal is known
-  LogVariance travel;        ///< of n . direction, n of the road under the car
+  LogVariance chord;         ///< of n . direction, n of the road under the car
   RoadBend bend;
-  /// Way over which a cue's errors of the height stay alike, in camera heights.
-  double dense_memory_ratio = 0.0;
-  double points_memory_ratio = 0.0;
-  double objects_repetition = 1.0;  ///< images over which the objects' error of n3 stays alike
-  /// What is reported on top of the filter's own variances.
+  /// Distance travelled, in camera heights, over which a cue's errors of the height stay
+  /// correlated.
+  double dense_correlation_length_ratio = 0.0;
+  double points_correlation_length_ratio = 0.0;
+  double objects_correlated_images = 1.0;  ///< images that share one error of the objects' n3
+  // Variances that are reported on top of the filter's own.
   LogVariance plane_pitch;
   LogVariance plane_roll;
   LogVariance plane_height;
-  double ln_scale_bias_std = 0.0;  ///< what no frame can tell: it is the same in a whole drive
-  LinearVariance objects_n3;  ///< of n3 out of detected objects, by the variance of the boxes alone
-  PaperModel paper;
+  double ln_scale_bias_std = 0.0;  ///< part of ln scale's error that is the same in a whole drive
+  LinearVariance objects_n3;       ///< of n3 from detected objects, by the variance of the boxes
 
-  /// Numbers only, under the names of the file's sections; origin is the loader's.
+  /// Visits the numbers under the names of the file's sections. `origin` is the loader's.
   template <typename Model, typename Visit>
   static void visit(Model& m, Visit&& field);
 };
 
-/// The numbers of config/ground_model.toml, as they were when the program was built. Without its origin.
+/// The numbers of config/ground_model.toml as they were when the program was built; no origin.
 [[nodiscard]] GroundModel built_in_ground_model();
 
 }  // namespace plumb

@@ -1,4 +1,8 @@
-/// The one list of a model file's numbers: key, member, range, meaning. Part of ground_model.hpp.
+/// The one list of a model file's numbers: key, member, range and meaning. Part of
+/// ground_model.hpp.
+///
+/// The keys are an interface and older than the names of the members: [travel] is the direction of
+/// translation over a chord, [memory] holds correlation lengths.
 #pragma once
 
 #include <string>
@@ -28,16 +32,6 @@ void visit_log_variance(const char* section, const char* what,
   field((prefix + "high_std").c_str(), m.high_std, 1e-6, 10.0, "largest 1-sigma");
 }
 
-template <typename Line, typename Visit>
-void visit_line(const char* section, Line& line, Visit&& field) {
-  const std::string prefix = std::string(section) + ".";
-  field((prefix + "offset").c_str(), line.offset, -10.0, 10.0, "variance at no belief");
-  field((prefix + "slope").c_str(), line.slope, -10.0, 10.0, "variance per unit of belief");
-  field((prefix + "least").c_str(), line.least, 0.0, 10.0, "smallest variance in training");
-  field((prefix + "most").c_str(), line.most, 0.0, 10.0, "largest variance in training");
-  field((prefix + "mean").c_str(), line.mean, 0.0, 10.0, "over all frames: the fixed one");
-}
-
 inline constexpr std::array<SlopeField, kNumCueFeatures> kDenseSlopes{
     {{"pixel", "per ln of the pixels' own variance over 1e-6"},
      {"doubt", "per -ln of the images' correlation"},
@@ -48,11 +42,11 @@ inline constexpr std::array<SlopeField, kNumCueFeatures> kPointsSlopes{
      {"spread", "per ln(spread of the agreeing points / 0.02)"},
      {"turn", "as above"},
      {"step", "as above"}}};
-inline constexpr std::array<SlopeField, kNumCueFeatures> kTravelSlopes{
+inline constexpr std::array<SlopeField, kNumCueFeatures> kChordSlopes{
     {{nullptr, nullptr}, {nullptr, nullptr}, {"turn", "as above"}, {"step", "as above"}}};
 inline constexpr std::array<SlopeField, kNumCueFeatures> kPlaneSlopes{
     {{"dense", "per ln(1 + (tilt of dense cue against fused normal / 0.003)^2)"},
-     {"travel", "per ln(1 + (direction of travel against fused normal / 0.003)^2)"},
+     {"travel", "per ln(1 + (direction of translation against fused normal / 0.003)^2)"},
      {"turn", "as above"},
      {"step", "as above"}}};
 inline constexpr std::array<SlopeField, kNumCueFeatures> kRollSlopes{
@@ -75,34 +69,33 @@ void GroundModel::visit(Model& m, Visit&& field) {
   visit_log_variance("points", "ln variance of ln h, the normal known, usual frame", kPointsSlopes,
                      m.points, field);
   visit_log_variance("travel",
-                     "ln variance of normal . direction of travel under the car, usual frame",
-                     kTravelSlopes, m.travel, field);
-  field(
-      "bend.start_std", m.bend.start_std, 0.0, 0.2,
-      "1-sigma of the angle between the road ahead and the one under the car, until a drive tells");
-  field("bend.memory_ratio", m.bend.memory_ratio, 0.1, 1000.0,
-        "camera heights of way over which a bend stays alike");
+                     "ln variance of normal . direction of translation under the car, usual frame",
+                     kChordSlopes, m.chord, field);
+  field("bend.start_std", m.bend.start_std, 0.0, 0.2,
+        "1-sigma of the angle between the road ahead and the one under the car, at the start of a "
+        "drive");
+  field("bend.memory_ratio", m.bend.correlation_length_ratio, 0.1, 1000.0,
+        "camera heights travelled over which a bend stays correlated");
   field("bend.height_slope", m.bend.height_slope, 0.0, 10.0,
         "ln height of the plane ahead per unit of that angle");
-  field("memory.dense_ratio", m.dense_memory_ratio, 0.0, 1000.0,
-        "camera heights of way over which the dense cue's errors stay alike");
-  field("memory.points_ratio", m.points_memory_ratio, 0.0, 1000.0, "the same, points");
-  field("memory.objects_images", m.objects_repetition, 1.0, 1000.0,
+  field("memory.dense_ratio", m.dense_correlation_length_ratio, 0.0, 1000.0,
+        "camera heights travelled over which the dense cue's errors stay correlated");
+  field("memory.points_ratio", m.points_correlation_length_ratio, 0.0, 1000.0,
+        "the same for the points cue");
+  field("memory.objects_images", m.objects_correlated_images, 1.0, 1000.0,
         "images that share one error of the detected objects' pitch");
   visit_log_variance("plane_pitch",
-                     "ln variance of reported pitch beside the filter's, usual frame", kPlaneSlopes,
-                     m.plane_pitch, field);
-  visit_log_variance("plane_roll", "ln variance of reported roll beside the filter's, usual frame",
+                     "ln variance of reported pitch on top of the filter's, usual frame",
+                     kPlaneSlopes, m.plane_pitch, field);
+  visit_log_variance("plane_roll",
+                     "ln variance of reported roll on top of the filter's, usual frame",
                      kRollSlopes, m.plane_roll, field);
   visit_log_variance("plane_height",
-                     "ln variance of reported ln h beside the filter's, usual frame", kPlaneSlopes,
-                     m.plane_height, field);
-  field("bias.ln_scale_std", m.ln_scale_bias_std, 0.0, 0.5, "1-sigma of what a whole drive keeps");
-  visit_line("objects_n3", m.objects_n3, field);
-  visit_line("paper_dense_n1", m.paper.dense_n1, field);
-  visit_line("paper_dense_n3", m.paper.dense_n3, field);
-  visit_line("paper_dense_h", m.paper.dense_h, field);
-  visit_line("paper_points_h", m.paper.points_h, field);
+                     "ln variance of reported ln h on top of the filter's, usual frame",
+                     kPlaneSlopes, m.plane_height, field);
+  field("bias.ln_scale_std", m.ln_scale_bias_std, 0.0, 0.5,
+        "1-sigma of the part of ln scale that is the same in a whole drive");
+  LinearVariance::visit("objects_n3", m.objects_n3, field);
 }
 
 }  // namespace plumb

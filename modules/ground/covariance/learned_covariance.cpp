@@ -4,21 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/ground/covariance/fixed_covariance.hpp"
+
 namespace plumb {
 namespace {
 
 constexpr double kSmallestStepRatio = 1e-3;
-constexpr double kMostRepetition = 1000.0;
+constexpr double kMostCorrelatedImages = 1000.0;
 
 }  // namespace
 
-double repetition_of(double memory_ratio, double step_ratio) {
-  const double x = 0.5 * std::max(step_ratio, kSmallestStepRatio) / std::max(memory_ratio, 1e-6);
+double correlated_images(double correlation_length_ratio, double step_ratio) {
+  const double x =
+      0.5 * std::max(step_ratio, kSmallestStepRatio) / std::max(correlation_length_ratio, 1e-6);
   // (1 + r) / (1 - r) with r = e^(-2 x)
-  return std::min(1.0 / std::tanh(x), kMostRepetition);
+  return std::min(1.0 / std::tanh(x), kMostCorrelatedImages);
 }
 
-Eigen::Matrix3d LearnedCovariance::dense(const DenseObservation& dense,
+Eigen::Matrix3d LearnedCovariance::dense(const DenseMeasurement& dense,
                                          const CueContext& context) const {
   const Eigen::Matrix3d information = state_information(dense);
   const Eigen::Matrix3d pixel = information.inverse();
@@ -38,38 +41,40 @@ Eigen::Matrix3d LearnedCovariance::dense(const DenseObservation& dense,
   return cov;
 }
 
-double LearnedCovariance::points(const PointsObservation& points, const CueContext& context) const {
+double LearnedCovariance::points(const PointsMeasurement& points, const CueContext& context) const {
   return model_.points.of(points_features(points.num_inliers, points.ln_height_std,
                                           context.turn_ratio, context.step_ratio));
 }
 
-double LearnedCovariance::travel(const Travel& /*travel*/, const CueContext& context) const {
-  return model_.travel.of(travel_features(context.turn_ratio, context.step_ratio));
+double LearnedCovariance::chord(const Chord& /*chord*/, const CueContext& context) const {
+  return model_.chord.of(chord_features(context.turn_ratio, context.step_ratio));
 }
 
 PlaneVariance LearnedCovariance::plane(const PlaneContext& context) const {
   const auto [turn_ratio, step_ratio] = context.cue;
   const CueFeatures forward =
-      plane_features(context.dense_n3_square, context.travel_square, turn_ratio, step_ratio);
+      plane_features(context.dense_n3_square, context.chord_square, turn_ratio, step_ratio);
   const CueFeatures sideways = plane_features(context.dense_n1_square, 0.0, turn_ratio, step_ratio);
   return {model_.plane_pitch.of(forward), model_.plane_roll.of(sideways),
           model_.plane_height.of(forward)};
 }
 
-double LearnedCovariance::dense_repetition(const CueContext& context) const {
-  return turn_repetition(context) * repetition_of(model_.dense_memory_ratio, context.step_ratio);
+double LearnedCovariance::dense_correlated_images(const CueContext& context) const {
+  return turn_correlation(context) *
+         correlated_images(model_.dense_correlation_length_ratio, context.step_ratio);
 }
 
-double LearnedCovariance::points_repetition(const CueContext& context) const {
-  return turn_repetition(context) * repetition_of(model_.points_memory_ratio, context.step_ratio);
+double LearnedCovariance::points_correlated_images(const CueContext& context) const {
+  return turn_correlation(context) *
+         correlated_images(model_.points_correlation_length_ratio, context.step_ratio);
 }
 
-double LearnedCovariance::dense_quality(const DenseObservation& dense) const {
-  return FloorCovariance().dense_quality(dense);
+double LearnedCovariance::dense_quality(const DenseMeasurement& dense) const {
+  return FixedCovariance().dense_quality(dense);
 }
 
-double LearnedCovariance::points_quality(const PointsObservation& points) const {
-  return FloorCovariance().points_quality(points);
+double LearnedCovariance::points_quality(const PointsMeasurement& points) const {
+  return FixedCovariance().points_quality(points);
 }
 
 }  // namespace plumb

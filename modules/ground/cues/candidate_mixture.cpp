@@ -8,10 +8,11 @@
 namespace plumb {
 namespace {
 
-constexpr double kStartWidth = 1.0 / 8.0;  ///< deviation at the start, shares of the box
+constexpr double kStartWidth = 1.0 / 8.0;  ///< 1-sigma at the start, shares of the box
 constexpr double kLeastAmplitude = 0.05;
-constexpr double kScoreStd = 0.02;  ///< what a sample is trusted to
-// The prior's deviations: ln A, mean (shares of the start's deviation), log-diagonal, off-diagonal.
+constexpr double kScoreStd = 0.02;  ///< 1-sigma of a sample's score
+// Standard deviations of the prior: ln A, mean (in units of the start's), log-diagonal,
+// off-diagonal.
 constexpr double kPriorLogAmplitude = 1.0;
 constexpr double kPriorMean = 2.0;
 constexpr double kPriorLogDiagonal = 1.5;
@@ -21,7 +22,7 @@ constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e8;
 constexpr double kSmallDecrease = 1e-7;
 
-/// Where (row, column) of the lower factor, row >= column, lies in a component's parameters.
+/// Index of (row, column) of the lower factor, row >= column, among a component's parameters.
 constexpr int factor_index(int row, int column) { return 5 + row * (row + 1) / 2 + column; }
 
 double prior_std(int parameter) {
@@ -56,7 +57,7 @@ Eigen::Vector4d box_vector(const Box& box) {
   return {box.centre_u_px(), box.bottom_px, box.width_px(), box.height_px()};
 }
 
-double placement_belief_px2(const MixtureComponent& component) {
+double placement_confidence_px2(const MixtureComponent& component) {
   const double foot = component.cov(1, 1);
   const double height = component.cov(3, 3);
   return foot * height / (foot + height);
@@ -82,7 +83,7 @@ Eigen::Vector4d CandidateMixture::scale_px(std::size_t component) const {
 }
 
 CandidateMixture::Parameters CandidateMixture::start_parameters() const {
-  // Coordinates are offsets from the start in units of its deviation: the start is mean 0, factor 1.
+  // Coordinates are offsets from the start in units of its 1-sigma: the start is mean 0, factor 1.
   Parameters start = Parameters::Zero(num_parameters());
   for (std::size_t m = 0; m < starts_.size(); ++m) {
     start(kPerComponent * static_cast<Eigen::Index>(m)) =

@@ -1,10 +1,10 @@
-/// How surely a detector has placed a box, read from the raw boxes around it.
+/// How accurately a detector has placed a box, from the scores of the raw boxes around it.
 ///
-/// Model    score(b) = sum_m A_m exp(-1/2 (b - mean_m)^T cov_m^-1 (b - mean_m)), fitted to candidate
-/// boxes by least
-///          squares. Source: Song and Chandraker, CVPR 2014, eq. (10).
-/// Frames   b = (u of the middle, v of the lower edge, width, height) [px] in img.
-/// Memory   kMaxSamples samples, kMaxComponents Gaussians and the normal equations in place, 35 kB.
+/// Model   score(b) = sum_m A_m exp(-1/2 (b - mean_m)^T cov_m^-1 (b - mean_m)), fitted to candidate
+///         boxes by least squares.
+/// Source  Song and Chandraker, CVPR 2014, equation (10).
+/// Frames  b = (u of the middle, v of the lower edge, width, height) [px] in img.
+/// Memory  kMaxSamples samples, kMaxComponents Gaussians and the normal equations in place, 35 kB.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,21 +25,21 @@ struct MixtureComponent {
 /// (u of the middle, v of the lower edge, width, height).
 [[nodiscard]] Eigen::Vector4d box_vector(const Box& box);
 
-/// Add samples and starting boxes, fit, read; clear() begins anew. Deterministic in the order of
-/// its inputs.
+/// Add samples and components, fit, read the result; clear() for the next fit. Deterministic in the
+/// order of its inputs.
 class CandidateMixture {
  public:
   static constexpr std::size_t kMaxSamples = 128;
   static constexpr std::size_t kMaxComponents = 4;
 
   void clear();
-  /// One raw box. False when it is full or the box or score is not usable (empty, not finite).
+  /// Adds one raw box. False when full, or when box or score are not usable (empty, not finite).
   bool add_sample(const Box& box, double score);
-  /// A Gaussian is expected at `box`, the box that suppression kept. False when full or unusable.
+  /// Adds a Gaussian that starts at `box`, which suppression kept. False when full or unusable.
   bool add_component(const Box& box, double score);
 
-  /// Levenberg-Marquardt from the starting boxes; a wide prior about the start keeps what the
-  /// samples do not determine. False when the numbers overflow; components are then at the start.
+  /// Fits by Levenberg-Marquardt from the starting boxes; a wide prior about the start determines
+  /// what the samples do not. False when the numbers overflow; components are then at the start.
   /// @pre at least one component and one sample
   bool fit(int max_iterations);
 
@@ -48,7 +48,7 @@ class CandidateMixture {
   [[nodiscard]] MixtureComponent component(std::size_t i) const;
   /// Index of the Gaussian whose mean is nearest to `box`. @pre num_components() > 0
   [[nodiscard]] std::size_t nearest_component(const Box& box) const;
-  /// Of the samples, in units of score; after fit().
+  /// Root mean square residual of the samples, in units of score; after fit().
   [[nodiscard]] double rms_residual() const { return rms_residual_; }
 
  private:
@@ -82,7 +82,7 @@ class CandidateMixture {
   double rms_residual_ = 0.0;
 };
 
-/// Paper's a_d [px^2]: the variances of lower edge and height, one over the sum of their inverses.
-[[nodiscard]] double placement_belief_px2(const MixtureComponent& component);
+/// The paper's a_d [px^2]: one over the sum of the inverse variances of lower edge and height.
+[[nodiscard]] double placement_confidence_px2(const MixtureComponent& component);
 
 }  // namespace plumb

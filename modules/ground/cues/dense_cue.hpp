@@ -1,78 +1,51 @@
-/// Dense cue: the plane q = n/h that makes the road of this image agree with one or two older
-/// images.
+/// Dense cue: the plane that aligns the road of the newest image with older ones
+/// (dense_alignment.hpp), as an observation of (n1, n3, ln h).
 ///
-/// Gauss-Newton on q with gain and bias per image pair, Student-t weights, coarse to fine, after a
-/// sweep over heights that keeps it out of a wrong minimum.
+/// Until the filter has converged, a frame in which the alignment fails at the prior's height is
+/// searched over a range of heights: at high speed VO may track nothing nearby, and then no road
+/// point gives a height to start from.
 ///
-/// Frames  cam of the newest image.  Units  [vo], grey levels.  Memory  one RoadPixels; no heap
-/// after construction.
+/// Memory  one DenseAlignment.
 #pragma once
 
-#include <Eigen/Core>
-
-#include "core/fixed_vector.hpp"
+#include "modules/ground/cues/cue.hpp"
+#include "modules/ground/cues/dense_alignment.hpp"
 #include "modules/ground/cues/image_ring.hpp"
-#include "modules/ground/cues/plane_warp.hpp"
-#include "modules/ground/cues/road_pixels.hpp"
 #include "modules/ground/cues/row_clock.hpp"
-#include "modules/vo/vo.hpp"
 
 namespace plumb {
 
-inline constexpr std::size_t kMaxImagePairs = 2;
-
-/// An older image and the motion to it.
-struct ImagePair {
-  const Pyramid* old_image = nullptr;
-  Se3 T_old_cam;
-  double lag_per_y = 0.0;  ///< of RowClock
-};
-using ImagePairs = FixedVector<ImagePair, kMaxImagePairs>;
-
-/// Where to look.
-struct DenseRequest {
-  Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< expected; also a weak prior
-  double height = 0.0;                                    ///< expected [vo]
-  double sweep_ln_range = 0.0;                            ///< half range of the sweep in ln h
-  RoadShape road;
-};
-
-struct DenseObservation {
-  bool ok = false;
-  Eigen::Vector3d q = Eigen::Vector3d::Zero();            ///< n / h [1/vo]
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of q, pixel noise alone
-  double sigma_grey = 0.0;                                ///< scale of the residuals
-  double sad = 0.0;  ///< mean |residual| at q, gain and bias removed
-  double ncc = 0.0;  ///< correlation at q
-  /// The same if nothing had moved in the image. Above `ncc` it is no road that is seen but what travels with us: an
-  /// overlay, or the back of a truck.
-  double still_ncc = 0.0;
-  int num_pixels = 0;  ///< at the finest level, all pairs
-};
-
-/// Images to compare with: one at a short and, when held, one at a long baseline, in multiples of
-/// `height`.
-[[nodiscard]] ImagePairs choose_image_pairs(const VoOutput& vo, const ImageRing& ring,
-                                            const RowClock& clock, double height);
-
-class DenseCue {
+class DenseCue final : public Cue {
  public:
-  DenseCue(const CameraModel& ring_camera, int num_levels);
+  /// The arguments must outlive the cue. `clock` is told of every image before measure().
+  DenseCue(const FilterConfig& config, const CueCovariance& covariance, const ImageRing& images,
+           const RowClock& clock);
 
-  /// @pre pairs not empty, request.height > 0
-  [[nodiscard]] DenseObservation measure(const Pyramid& now, const ImagePairs& pairs,
-                                         const DenseRequest& request);
+  [[nodiscard]] Observation measure(const CueFrame& frame, const FramePrior& prior) override;
+  [[nodiscard]] HeightMeasurement height_over(const Eigen::Vector3d& plane) const override;
+
+  /// Of the last measure(), as its Observation refers to it.
+  [[nodiscard]] const DenseMeasurement& last() const { return last_; }
 
  private:
-  struct Solution;
-  double sweep(const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request);
-  bool refine(int level, const Pyramid& now, const ImagePairs& pairs, const DenseRequest& request,
-              Solution* solution);
-  void rate(const ImagePairs& pairs, DenseObservation* out);
+  /// One alignment at the prior's height.
+  struct Attempt {
+    bool looked = false;  ///< there were images to compare
+    DenseMeasurement dense;
+  };
 
-  CameraModel camera_;
-  int num_levels_;
-  RoadPixels pixels_;
+  [[nodiscard]] Attempt align(const CueFrame& frame, const FramePrior& prior);
+  [[nodiscard]] DenseMeasurement search(const CueFrame& frame, const FramePrior& prior);
+  [[nodiscard]] Observation observed(const FramePrior& prior, const FramePrior& next,
+                                     CueStatus status);
+
+  const FilterConfig& config_;
+  const CueCovariance& covariance_;
+  const ImageRing& images_;
+  const RowClock& clock_;
+  DenseAlignment alignment_;
+  DenseMeasurement last_;
+  CueContext last_context_;
 };
 
 }  // namespace plumb

@@ -5,7 +5,7 @@
 namespace plumb {
 namespace {
 
-constexpr double kUnknownPitchVar = 0.04;  ///< [rad^2] 1-sigma of 11 deg: no knowledge
+constexpr double kUnknownPitchVar = 0.04;  ///< [rad^2] 1-sigma of 11 degrees: unknown
 
 }  // namespace
 
@@ -44,7 +44,7 @@ HeightFilter::Place HeightFilter::place_of(std::int32_t track_id, std::int8_t ob
     if (candidate.in_use && candidate.track_id == track_id) {
       candidate.seen_us = capture_us;
       if (candidate.object_class == object_class) return {slot, false};
-      chosen = slot;  // the detector changed its mind about the class: the height begins anew
+      chosen = slot;  // the detector has changed the class: reset the height
       break;
     }
     const bool replaceable = !candidate.in_use || candidate.seen_us < capture_us;
@@ -55,22 +55,22 @@ HeightFilter::Place HeightFilter::place_of(std::int32_t track_id, std::int8_t ob
   }
   if (chosen == kNone) return {};
   slots_[chosen] = {true, track_id, object_class, capture_us};
-  restart(chosen, log_height, log_height_var);
+  reset_height(chosen, log_height, log_height_var);
   return {chosen, true};
 }
 
-void HeightFilter::restart(std::size_t slot, double log_height, double log_height_var) {
+void HeightFilter::reset_height(std::size_t slot, double log_height, double log_height_var) {
   decorrelate(row(slot), log_height, log_height_var);
 }
 
-void HeightFilter::forget(std::size_t slot) {
+void HeightFilter::drop(std::size_t slot) {
   slots_[slot].in_use = false;
   decorrelate(row(slot), 0.0, 0.0);
 }
 
-void HeightFilter::forget_before(std::int64_t oldest_us) {
+void HeightFilter::drop_before(std::int64_t oldest_us) {
   for (std::size_t slot = 0; slot < kMaxHeights; ++slot) {
-    if (slots_[slot].in_use && slots_[slot].seen_us < oldest_us) forget(slot);
+    if (slots_[slot].in_use && slots_[slot].seen_us < oldest_us) drop(slot);
   }
 }
 

@@ -1,10 +1,9 @@
-/// Kalman filter over the camera's pitch and the heights of the objects that are tracked.
+/// Kalman filter of the camera's pitch and the heights of the tracked objects.
 ///
-/// State    (pitch of this frame, slow pitch, ln height of each object). An object keeps its height,
-/// so a car measured
-///          while it was near goes on telling the pitch when it is far; errors that objects share
-///          through the pitch stay correlated.
-/// Memory   kMaxHeights objects and a dense covariance in place, 10 kB.
+/// State   (pitch of this frame, slow pitch, ln height of each object). An object keeps its height,
+///         so that a car that was measured while it was near still measures the pitch when it is
+///         far. Errors that objects share through the pitch stay correlated.
+/// Memory  kMaxHeights objects and a dense covariance in place, 10 kB.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,35 +22,35 @@ class HeightFilter {
     double mean_pitch_rad = 0.0;
     double pitch_std_rad = 0.0;  ///< of the slow part
     double pitch_time_s = 0.0;
-    double log_height_rate_std = 0.0;  ///< [1/sqrt(s)] how much a height may seem to change
+    double log_height_rate_std = 0.0;  ///< [1/sqrt(s)] random walk of ln height
   };
 
   explicit HeightFilter(const Prior& prior);
 
-  /// Slow pitch after `dt_s`, and this frame's pitch unknown again.
+  /// Predicts the slow pitch over `dt_s` and makes this frame's pitch unknown again.
   void predict(double dt_s);
 
   struct Place {
     std::size_t slot = kNone;
     bool is_new = false;
   };
-  /// Slot of the track, begun at (mean, variance of ln height) when it is new or changes its class.
-  /// kNone when tracks seen at `capture_us` hold all slots; else the one unseen for longest gives
-  /// way.
+  /// Slot of the track. A track that is new or has changed its class gets the given ln height. When
+  /// all slots are taken, the track that was unseen for longest is dropped; kNone when all of them
+  /// were seen at `capture_us`.
   Place place_of(std::int32_t track_id, std::int8_t object_class, double log_height,
                  double log_height_var, std::int64_t capture_us);
-  /// The object's height is unknown again, but for this.
-  void restart(std::size_t slot, double log_height, double log_height_var);
-  void forget(std::size_t slot);
-  /// Forgets every track that was last seen before `oldest_us`.
-  void forget_before(std::int64_t oldest_us);
+  /// Resets the object's height to this value.
+  void reset_height(std::size_t slot, double log_height, double log_height_var);
+  void drop(std::size_t slot);
+  /// Drops every track that was last seen before `oldest_us`.
+  void drop_before(std::int64_t oldest_us);
 
-  /// Box: pitch_rad was found with `log_height`; d pitch / d ln height is `J_height`.
+  /// Takes a box whose pitch was read with `log_height`; `J_height` is d pitch / d ln height.
   void update_box(std::size_t slot, double log_height, double pitch_rad, double J_height,
                   double var_rad2);
-  /// Anything else that measures this frame's pitch.
+  /// Takes another measurement of this frame's pitch.
   void update_pitch(double pitch_rad, double var_rad2);
-  /// This frame's pitch is the slow one but for a jitter.
+  /// States that this frame's pitch is the slow one plus jitter.
   void tie_to_slow_pitch(double jitter_var_rad2);
 
   [[nodiscard]] double pitch_rad() const { return x_(kPitch); }
@@ -75,7 +74,7 @@ class HeightFilter {
   };
 
   static int row(std::size_t slot) { return 2 + static_cast<int>(slot); }
-  /// Scalar measurement h_i x_i + h_j x_j = z.
+  /// Fuses a scalar measurement h_i x_i + h_j x_j = z.
   void update(int i, double h_i, int j, double h_j, double innovation, double var);
   void decorrelate(int i, double mean, double var);
 

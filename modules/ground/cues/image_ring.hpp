@@ -1,7 +1,7 @@
-/// The last images as pyramids, found again by sequence number.
+/// Ring of the last images as pyramids, found by their sequence numbers.
 ///
-/// Only rows that can show road are kept: from a little above the horizon of a level camera to the
-/// bottom. `camera()` is the model of that cut-out, and every pixel coordinate of the dense cue
+/// It keeps only rows that can show road: from a little above the horizon of a level camera to the
+/// bottom. `camera()` is the model of these rows, and every pixel coordinate of the dense cue
 /// refers to it.
 ///
 /// Memory  kCapacity pyramids, sized at construction.
@@ -24,17 +24,17 @@ class ImageRing {
 
   explicit ImageRing(const CameraModel& camera);
 
-  /// Model of the kept rows: the camera's, with the principal row moved up.
+  /// Model of the kept rows: the camera with its principal point moved up.
   [[nodiscard]] const CameraModel& camera() const { return camera_; }
   [[nodiscard]] int num_levels() const { return num_levels_; }
   [[nodiscard]] bool fits(const ImageView& image) const;
 
-  /// Keeps a copy; the oldest image goes. @pre fits(image)
+  /// Stores a copy in place of the oldest image. @pre fits(image)
   const Pyramid& push(std::int64_t seq, const ImageView& image);
-  /// The same, but the newest image goes, so that the older views stay. @pre fits(image)
+  /// Stores a copy in place of the newest image, so that older views stay. @pre fits(image)
   const Pyramid& replace_newest(std::int64_t seq, const ImageView& image);
 
-  /// Null when the image of `seq` is not held.
+  /// Null when the ring does not have the image of `seq`.
   [[nodiscard]] const Pyramid* find(std::int64_t seq) const;
 
  private:

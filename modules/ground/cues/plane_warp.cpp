@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/simd.hpp"
-#include "modules/ground/cues/plane_landing.hpp"
+#include "modules/ground/cues/homography_warp.hpp"
 
 namespace plumb {
 namespace {
@@ -27,7 +27,7 @@ struct Sample {
   Float8 dv;
 };
 
-inline void gather_row(const ImageView& image, const Landing& at, int row_offset, Int8* words) {
+inline void gather_row(const ImageView& image, const WarpedRays& at, int row_offset, Int8* words) {
   for (int lane = 0; lane < kNumLanes; ++lane) {
     const std::uint8_t* from = image.row(at.row[lane] + row_offset) + at.column[lane] - 1;
     std::int32_t word = 0;
@@ -36,14 +36,15 @@ inline void gather_row(const ImageView& image, const Landing& at, int row_offset
   }
 }
 
-/// Interpolated between columns: at u - 1, u and u + 1.
+/// Values at u - 1, u and u + 1, interpolated between columns.
 struct RowSample {
   Float8 left;
   Float8 centre;
   Float8 right;
 };
 
-inline void sample_row(const ImageView& image, const Landing& at, int row_offset, RowSample* out) {
+inline void sample_row(const ImageView& image, const WarpedRays& at, int row_offset,
+                       RowSample* out) {
   Int8 words{};
   gather_row(image, at, row_offset, &words);
   Float8 c0, c1, c2, c3;
@@ -56,7 +57,7 @@ inline void sample_row(const ImageView& image, const Landing& at, int row_offset
   out->right = c2 + at.fu * (c3 - c2);
 }
 
-inline void sample_with_gradient(const ImageView& image, const Landing& at, Sample* out) {
+inline void sample_with_gradient(const ImageView& image, const WarpedRays& at, Sample* out) {
   RowSample above{}, upper{}, lower{}, below{};
   sample_row(image, at, -1, &above);
   sample_row(image, at, 0, &upper);
@@ -71,15 +72,15 @@ inline void sample_with_gradient(const ImageView& image, const Landing& at, Samp
   out->dv = 0.5F * (rise_upper + at.fv * (rise_lower - rise_upper));
 }
 
-inline void sample_value(const ImageView& image, const Landing& at, Float8* out) {
+inline void sample_value(const ImageView& image, const WarpedRays& at, Float8* out) {
   RowSample upper{}, lower{};
   sample_row(image, at, 0, &upper);
   sample_row(image, at, 1, &lower);
   *out = upper.centre + at.fv * (lower.centre - upper.centre);
 }
 
-/// Float8 of the block at `i` that hold a pixel.
-inline Int8 held(int i, int size) {
+/// Marks the lanes of the block at `i` that belong to a pixel.
+inline Int8 lanes_in_use(int i, int size) {
   const Int8 index = Int8{0, 1, 2, 3, 4, 5, 6, 7} + i;
   return index < (Int8{} + size);
 }
@@ -138,16 +139,16 @@ void PlaneWarp::accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
     x = load_floats(pixels.x + i);
     y = load_floats(pixels.y + i);
     grey = load_floats(pixels.grey + i);
-    Landing at{};
-    land(h, camera_, image_, x, y, kReach_px, &at);
+    WarpedRays at{};
+    warp_rays(h, camera_, image_, x, y, kReach_px, &at);
     Sample old{};
     sample_with_gradient(image_, at, &old);
     const Float8 r = old.value - gain * grey - bias;
-    // Chain rule along the epipolar line; the radial term's own slope, below 1 %, and the rolling shutter's are left to
-    // iteration.
+    // Chain rule along the epipolar line. The slopes of the radial term, below 1 %, and of the
+    // rolling shutter are neglected; iteration corrects for them.
     const Float8 g = at.inverse_depth * (camera_.fx * old.du * (h.t[0] - at.xn * h.t[2]) +
                                          camera_.fy * old.dv * (h.t[1] - at.yn * h.t[2]));
-    const Int8 usable = at.inside & held(i, pixels.size);
+    const Int8 usable = at.inside & lanes_in_use(i, pixels.size);
     const Float8 w =
         usable ? (kResidualNu + 1.0F) / (kResidualNu + r * r * inverse_var) : splat(0.0F);
     lanes.add(x, y, grey, usable ? g : splat(0.0F), r, w);
@@ -166,10 +167,10 @@ Likeness PlaneWarp::compare(const RoadPixels& pixels, const Eigen::Vector3d& q) 
     x = load_floats(pixels.x + i);
     y = load_floats(pixels.y + i);
     grey = load_floats(pixels.grey + i);
-    Landing at{};
-    land(h, camera_, image_, x, y, kReach_px, &at);
+    WarpedRays at{};
+    warp_rays(h, camera_, image_, x, y, kReach_px, &at);
     sample_value(image_, at, &old);
-    const Int8 usable = at.inside & held(i, pixels.size);
+    const Int8 usable = at.inside & lanes_in_use(i, pixels.size);
     const Float8 a = usable ? old : zero;
     const Float8 b = usable ? grey : zero;
     count += usable ? splat(1.0F) : zero;

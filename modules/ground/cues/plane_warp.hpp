@@ -1,10 +1,11 @@
-/// Compares the road of the newest image with an older one through the plane, and sums normal
-/// equations.
+/// Compares the road of the newest image with an older one under a plane, and sums the normal
+/// equations of their alignment.
 ///
 /// A pixel with ray m sees the plane q = n/h at X = m / (q . m). In the older image it lies at
-/// W = project((R + t q^T) m), T_old_cam = (R, t). Residual: r = I_old(W) - (1 + a) I(m) - b.
+/// W = project((R + t q^T) m) with T_old_cam = (R, t). The residual is
+/// r = I_old(W) - (1 + a) I(m) - b.
 ///
-/// Frames  T_old_cam maps cam now to the older cam.  img: cut-outs of ImageRing.
+/// Frames  T_old_cam maps cam now to the older cam.  img: the rows that ImageRing keeps.
 /// Units   [vo]; grey levels 0..255.
 #pragma once
 
@@ -32,7 +33,7 @@ struct PairSums {
   int num_pixels = 0;
 };
 
-/// How alike the two images are under a plane.
+/// Agreement of the two images under a plane.
 struct Likeness {
   int num_pixels = 0;
   double sad = 0.0;  ///< mean |I_old(W) - I - mean difference|, grey levels
@@ -41,11 +42,11 @@ struct Likeness {
 
 class PlaneWarp {
  public:
-  /// @param lag_per_y  of RowClock, for this pair of images
+  /// @param lag_per_y  RowClock::lag_per_y() for this pair of images
   PlaneWarp(const ImageView& old_image, const LevelCamera& camera, const Se3& T_old_cam,
             double lag_per_y);
 
-  /// Linearises at (q, photometric); Student-t weights with scale `sigma_grey`.
+  /// Linearises the residuals at (q, photometric), with Student-t weights of scale `sigma_grey`.
   void accumulate(const RoadPixels& pixels, const Eigen::Vector3d& q,
                   const Photometric& photometric, double sigma_grey, PairSums* sums) const;
 

@@ -1,130 +1,46 @@
 #include "modules/ground/cues/points_cue.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "modules/ground/types/plane_state.hpp"
+
 namespace plumb {
-namespace {
 
-// Nearer and farther than the dense cue's road: points carry their own depth noise.
-constexpr double kNearRatio = 2.5;
-constexpr double kFarRatio = 15.0;
-constexpr double kLargestRelStd = 0.2;
-constexpr double kSmallestRelStd = 0.02;
-constexpr double kLowestRatio = 0.5;  // of the expected height
-constexpr double kHighestRatio = 1.8;
-constexpr float kRoadRoughnessVar = 0.03F * 0.03F;
-constexpr double kMeanRoughnessVar = 0.02 * 0.02;
-constexpr double kMeanWindow = 0.1;     // ln h
-constexpr double kInlierWindow = 0.06;  // ln h
-constexpr int kMeanIterations = 3;
-constexpr double kHeightNu = 4.0;
-constexpr double kRoughMinRaySlope = 0.085;
-constexpr std::size_t kRoughMinPoints = 10;
-
-}  // namespace
-
-PointsObservation PointsCue::measure(const VoOutput& vo, const PointsRequest& request) {
-  PointsObservation out;
-  collect(vo, request);
-  out.num_candidates = size_;
-  const int winner = vote(&out.score);
-  if (winner < 0) return out;
-  average(static_cast<double>(ln_height_[static_cast<std::size_t>(winner)]), &out);
+Observation PointsCue::measure(const CueFrame& frame, const FramePrior& prior) {
+  Observation out = nothing_observed(prior);
+  last_ = {};
+  last_context_ = prior.context;
+  if (!prior.measurable) return out;
+  last_ = vote_.measure(*frame.vo,
+                        {prior.normal_cam, prior.height, config_.least_ray_slope, prior.road});
+  if (last_.num_candidates == 0) return out;
+  const bool good = last_.ok && last_.num_inliers >= config_.least_points;
+  out.report.status = good ? CueStatus::kUsed : CueStatus::kFailed;
+  if (!last_.ok) return out;
+  const double var = covariance_.points(last_, prior.context);
+  out.report.height = std::exp(last_.ln_height);
+  out.report.height_var = out.report.height * out.report.height * var;
+  out.report.quality = covariance_.points_quality(last_);
+  if (!good) return out;
+  out.plane.function = observe_point;
+  out.plane.value = last_.centre;
+  out.plane.cov(0, 0) = covariance_.points_correlated_images(prior.context) * var;
+  out.plane.first_component = 2;
+  if (last_.num_inliers >= config_.start_points) out.start_ln_height = last_.ln_height;
   return out;
 }
 
-double PointsCue::rough_height(const VoOutput& vo, const Eigen::Vector3d& normal_cam) {
-  std::size_t n = 0;
-  for (const RoadPoint& point : vo.road_points) {
-    const Eigen::Vector3d p = point.p_cam.cast<double>();
-    if (p.y() > kRoughMinRaySlope * p.z()) {
-      ln_height_[n++] = static_cast<float>(normal_cam.dot(p));
-    }
-  }
-  if (n < kRoughMinPoints) return 0.0;
-  const auto begin = ln_height_.begin();
-  const auto nth = begin + static_cast<std::ptrdiff_t>(n * 2 / 3);
-  std::nth_element(begin, nth, begin + static_cast<std::ptrdiff_t>(n));
-  return static_cast<double>(*nth);
+HeightMeasurement PointsCue::height_over(const Eigen::Vector3d& plane) const {
+  const double height = normal_of_state(plane).dot(last_.centre);
+  return {std::log(height), covariance_.points(last_, last_context_),
+          last_.centre.transpose() * normal_jacobian(plane) / height};
 }
 
-/// Keeps the points on the path, at a believable height.
-void PointsCue::collect(const VoOutput& vo, const PointsRequest& request) {
-  size_ = 0;
-  for (const RoadPoint& point : vo.road_points) {
-    const Eigen::Vector3d p = point.p_cam.cast<double>();
-    const double height = request.normal_cam.dot(p);
-    const double rel_std = static_cast<double>(point.rel_std);
-    if (!(height > 0.0) || !(p.y() > request.min_ray_slope * p.z())) continue;
-    if (!(rel_std <= kLargestRelStd)) continue;
-    const double distance = p.z() / height;
-    if (distance < kNearRatio || distance > kFarRatio) continue;
-    const double centre = 0.5 * request.road.curvature * p.z() * p.z();
-    if (std::abs(p.x() - centre) > request.road.half_width_ratio * height) continue;
-    const double ratio = height / request.height;
-    if (request.height > 0.0 && (ratio < kLowestRatio || ratio > kHighestRatio)) continue;
-    const auto i = static_cast<std::size_t>(size_++);
-    const double std = std::max(kSmallestRelStd, rel_std);
-    points_[i] = p;
-    ln_height_[i] = static_cast<float>(std::log(height));
-    var_[i] = static_cast<float>(std * std);
-  }
-}
-
-/// Index of the point that the others agree with most, -1 without two points. The kernel (1 -
-/// e^2/9v)^2 stands in for exp(-e^2/2v): the same width, no exponential.
-int PointsCue::vote(double* best_score) const {
-  int winner = -1;
-  float best = 0.0F;
-  for (int i = 0; i < size_ && size_ > 1; ++i) {
-    float score = -1.0F;  // its own vote
-    const float ln_height = ln_height_[static_cast<std::size_t>(i)];
-    const float var = var_[static_cast<std::size_t>(i)] + kRoadRoughnessVar;
-    for (int j = 0; j < size_; ++j) {
-      const float e = ln_height - ln_height_[static_cast<std::size_t>(j)];
-      const float k = 1.0F - e * e / (9.0F * (var + var_[static_cast<std::size_t>(j)]));
-      score += k > 0.0F ? k * k : 0.0F;
-    }
-    if (score > best) {
-      best = score;
-      winner = i;
-    }
-  }
-  *best_score = static_cast<double>(best);
-  return winner;
-}
-
-void PointsCue::average(double ln_start, PointsObservation* out) const {
-  double mean = ln_start;
-  for (int iteration = 0; iteration < kMeanIterations; ++iteration) {
-    double sum_w = 0.0;
-    double sum_ln = 0.0;
-    Eigen::Vector3d sum_p = Eigen::Vector3d::Zero();
-    for (int j = 0; j < size_; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      const double e = static_cast<double>(ln_height_[i]) - mean;
-      if (std::abs(e) >= kMeanWindow) continue;
-      const double v = static_cast<double>(var_[i]) + kMeanRoughnessVar;
-      const double w = 1.0 / (v * (1.0 + e * e / (kHeightNu * v)));
-      sum_w += w;
-      sum_ln += w * static_cast<double>(ln_height_[i]);
-      sum_p += w * points_[i];
-    }
-    if (!(sum_w > 0.0)) return;
-    mean = sum_ln / sum_w;
-    out->centre = sum_p / sum_w;
-  }
-  double square = 0.0;
-  for (int j = 0; j < size_; ++j) {
-    const double e = static_cast<double>(ln_height_[static_cast<std::size_t>(j)]) - mean;
-    if (std::abs(e) >= kInlierWindow) continue;
-    ++out->num_inliers;
-    square += e * e;
-  }
-  out->ln_height = mean;
-  out->ln_height_std = out->num_inliers > 2 ? std::sqrt(square / out->num_inliers) : 1.0;
-  out->ok = out->num_inliers >= 2;
+double PointsCue::find_height(const VoOutput& vo, const FramePrior& prior, double fallback) {
+  const PointsMeasurement found =
+      vote_.measure(vo, {prior.normal_cam, 0.0, config_.least_ray_slope, prior.road});
+  if (found.ok && found.num_inliers >= config_.start_points) return std::exp(found.ln_height);
+  return fallback > 0.0 ? fallback : vote_.rough_height(vo, prior.normal_cam);
 }
 
 }  // namespace plumb

@@ -13,7 +13,7 @@ struct RowSpan {
   int end = 0;
 };
 
-/// Columns of row `v` that lie on the path. Empty above the far end and below the near one.
+/// Returns the columns of row `v` that lie on the path; empty beyond the far and near ends.
 RowSpan span_of_row(int v, const ImageView& image, const LevelCamera& camera,
                     const RoadShape& shape, const Eigen::Vector3d& q) {
   const double h = 1.0 / q.norm();
@@ -34,7 +34,8 @@ RowSpan span_of_row(int v, const ImageView& image, const LevelCamera& camera,
   return {static_cast<int>(low), static_cast<int>(high)};
 }
 
-/// Fixed-point inverse of the radial terms, good to 1e-6 where they move a pixel by less than 5 %.
+/// Inverts the radial terms by fixed-point iteration, accurate to 1e-6 where they move a pixel by
+/// less than 5 %.
 void undistort(const LevelCamera& camera, RoadPixels* pixels) {
   for (int i = 0; i < pixels->size; ++i) {
     const float xd = pixels->x[i];

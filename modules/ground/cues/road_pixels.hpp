@@ -1,6 +1,7 @@
-/// The pixels that show the road ahead: a trapezoid bent along the path, thinned to a fixed number.
+/// Selects the pixels that show the road ahead: a trapezoid bent along the path, thinned to a fixed
+/// number.
 ///
-/// Frames  img of the newest image's cut-out (see ImageRing), cam of the same image.
+/// Frames  img: the rows of the newest image that ImageRing keeps; cam of the same image.
 /// Units   [vo]; plane q = n / h, so that 1/Z = q . (x, y, 1).
 /// Memory  kMaxRoadPixels in place, structure of arrays.
 #pragma once
@@ -24,7 +25,7 @@ struct LevelCamera {
   float k1 = 0.0F;
   float k2 = 0.0F;
 
-  /// As CameraModel::radial, of one or of several squared radii.
+  /// Same as CameraModel::radial, for one or several squared radii.
   template <typename T>
   [[nodiscard]] T radial(const T& r2) const {
     return 1.0F + r2 * (k1 + r2 * k2);
@@ -41,7 +42,7 @@ struct RoadShape {
   double curvature = 0.0;
 };
 
-/// Undistorted ray (x, y, 1) and grey value per pixel; padded to whole lanes with zeros.
+/// Undistorted ray (x, y, 1) and grey value of each pixel, padded with zeros to whole lanes.
 struct RoadPixels {
   int size = 0;
   alignas(32) float x[kMaxRoadPixels + kNumLanes] = {};
@@ -51,8 +52,8 @@ struct RoadPixels {
   [[nodiscard]] int padded_size() const { return (size + kNumLanes - 1) / kNumLanes * kNumLanes; }
 };
 
-/// Fills `pixels` with at most `max_pixels` of `image`, evenly thinned. @pre max_pixels <=
-/// kMaxRoadPixels
+/// Fills `pixels` with at most `max_pixels` of `image`, evenly thinned.
+/// @pre max_pixels <= kMaxRoadPixels
 void select_road_pixels(const ImageView& image, const LevelCamera& camera, const RoadShape& shape,
                         const Eigen::Vector3d& q, int max_pixels, RoadPixels* pixels);
 

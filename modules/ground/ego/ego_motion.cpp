@@ -10,18 +10,6 @@ namespace plumb {
 namespace {
 constexpr double kMicro = 1e-6;
 
-// Standing still is measured: what is left is vibration.
-constexpr double kStandstillStepVar = 1e-3 * 1e-3;
-constexpr double kStandstillTurnVar = 1e-5 * 1e-5;
-
-// A predicted motion: the driver may brake or steer. Grows with the number of coasted frames.
-constexpr double kCoastStepRatio = 0.05;
-constexpr double kCoastTurnRad = 0.1 * kDegree;
-
-// VO's steps scatter by about this much of their length on real drives.
-constexpr double kStepScatterRatio = 0.01;
-constexpr double kSmallestSpeedStd = 0.02;
-
 bool turns(VoStatus status) {
   return status == VoStatus::kOk || status == VoStatus::kStandstill ||
          status == VoStatus::kRotationOnly || status == VoStatus::kCoasting;
@@ -49,25 +37,6 @@ EgoStatus status_of(const VoOutput& vo, const ScaleEstimate& scale) {
   return scale.measured_now ? EgoStatus::kOk : EgoStatus::kScaleHeld;
 }
 
-/// Of (t, right-perturbation of R) in metres, the scale's own error left out.
-Matrix6d motion_cov(const VoOutput& vo, double metres_per_vo, int num_coasted) {
-  Matrix6d cov = vo.cov_prev_cam;
-  cov.topRows<3>() *= metres_per_vo;
-  cov.leftCols<3>() *= metres_per_vo;
-  if (vo.status == VoStatus::kStandstill) {
-    cov.setZero();
-    cov.diagonal().head<3>().setConstant(kStandstillStepVar);
-    cov.diagonal().tail<3>().setConstant(kStandstillTurnVar);
-  }
-  if (vo.status == VoStatus::kCoasting) {
-    const double step = num_coasted * kCoastStepRatio * metres_per_vo * vo.T_prev_cam.t.norm();
-    const double turn = num_coasted * kCoastTurnRad;
-    cov.diagonal().head<3>().array() += step * step;
-    cov.diagonal().tail<3>().array() += turn * turn;
-  }
-  return cov;
-}
-
 }  // namespace
 
 void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
@@ -86,7 +55,7 @@ void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
   if (metric) {
     const double metres_per_vo = scale.known ? std::exp(scale.log_scale) : 0.0;
     out->T_prev_cam = {vo.T_prev_cam.R, metres_per_vo * vo.T_prev_cam.t};
-    out->cov_prev_cam = motion_cov(vo, metres_per_vo, num_coasted_);
+    out->cov_prev_cam = motion_cov(vo, metres_per_vo);
     integrate(vo, scale, *out);
     const Eigen::Vector3d& t = out->T_prev_cam.t;
     out->cov_prev_cam.topLeftCorner<3, 3>() += scale.var * t * t.transpose();
@@ -101,7 +70,28 @@ void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
   out->reset_counter = reset_counter_;
 }
 
-/// Keeps T_anchor_cam, or finds that the way from the anchor is lost.
+/// Covariance of (t, right-perturbation of R) in metres, without the error of the scale.
+Matrix6d EgoMotion::motion_cov(const VoOutput& vo, double metres_per_vo) const {
+  Matrix6d cov = vo.cov_prev_cam;
+  cov.topRows<3>() *= metres_per_vo;
+  cov.leftCols<3>() *= metres_per_vo;
+  if (vo.status == VoStatus::kStandstill) {
+    cov.setZero();
+    cov.diagonal().head<3>().setConstant(square(config_.standstill_step_std_m));
+    cov.diagonal().tail<3>().setConstant(square(config_.standstill_turn_std_rad));
+  }
+  if (vo.status == VoStatus::kCoasting) {
+    // A predicted motion: the driver may brake or steer meanwhile.
+    const double step =
+        num_coasted_ * config_.coast_step_ratio * metres_per_vo * vo.T_prev_cam.t.norm();
+    const double turn = num_coasted_ * config_.coast_turn_std_rad;
+    cov.diagonal().head<3>().array() += step * step;
+    cov.diagonal().tail<3>().array() += turn * turn;
+  }
+  return cov;
+}
+
+/// Updates T_anchor_cam, or finds that the path from the anchor is lost.
 void EgoMotion::follow_anchor(const VoOutput& vo, bool moved) {
   if (!anchored_) {
     anchored_ = true;
@@ -115,7 +105,8 @@ void EgoMotion::follow_anchor(const VoOutput& vo, bool moved) {
     path_known_ = true;
     return;
   }
-  if (vo.status == VoStatus::kInitializing) return;  // the window will reach back when VO starts
+  // The window will reach back when VO has initialised.
+  if (vo.status == VoStatus::kInitializing) return;
   if (moved && vo.prev_seq == last_seq_ && path_known_) {
     T_anchor_cam_ = T_anchor_cam_ * vo.T_prev_cam;
     return;
@@ -143,7 +134,7 @@ void EgoMotion::integrate(const VoOutput& vo, const ScaleEstimate& scale, const 
   const double num_frames = static_cast<double>(std::max<std::int64_t>(1, vo.seq - anchor_seq_));
   cov_world_anchor_ =
       F * cov_world_anchor_ * F.transpose() + num_frames * (G * out.cov_prev_cam * G.transpose());
-  // d(position) = moved * d(log_scale), on top of what earlier steps owe to the same error.
+  // d(position) = moved * d(log_scale), correlated with what the same error did to earlier steps.
   cov_position_scale_ *= scale.kept_ratio;
   cov_world_anchor_.topLeftCorner<3, 3>() += scale.var * moved * moved.transpose() +
                                              cov_position_scale_ * moved.transpose() +
@@ -176,7 +167,7 @@ void EgoMotion::write_rates(const VoOutput& vo, const Eigen::Vector3d& normal_ca
   if (vo.status == VoStatus::kCoasting) return;
 
   const double speed = out->velocity_ground_m_s.x();
-  const double scatter = kSmallestSpeedStd + kStepScatterRatio * std::abs(speed);
+  const double scatter = config_.least_speed_std_m_s + config_.step_scatter_ratio * std::abs(speed);
   speed_.update(speed, scatter * scatter, dt_s);
   if (!speed_.observable()) return;
   out->accel_forward_m_s2 = speed_.accel_m_s2();

@@ -2,19 +2,13 @@
 
 #include <cmath>
 
+#include "core/numbers.hpp"
+
 namespace plumb {
-namespace {
-
-// A driver changes the acceleration by about 2 m/s^2 within a second.
-constexpr double kJerkDensity = 4.0;  // (m/s^3)^2 s
-constexpr double kStartAccelStd = 3.0;
-
-}  // namespace
-
 void SpeedFilter::update(double speed_m_s, double speed_var, double dt_s) {
   if (num_measured_ == 0) {
     x_ << speed_m_s, 0.0;
-    P_ << speed_var, 0.0, 0.0, kStartAccelStd * kStartAccelStd;
+    P_ << speed_var, 0.0, 0.0, square(config_.start_accel_std_m_s2);
     num_measured_ = 1;
     return;
   }
@@ -24,7 +18,7 @@ void SpeedFilter::update(double speed_m_s, double speed_var, double dt_s) {
   Eigen::Matrix2d Q;
   Q << dt2 * dt_s / 3.0, dt2 / 2.0, dt2 / 2.0, dt_s;
   x_ = F * x_;
-  P_ = F * P_ * F.transpose() + kJerkDensity * Q;
+  P_ = F * P_ * F.transpose() + config_.jerk_density_m2_s5 * Q;
   const double S = P_(0, 0) + speed_var;
   const Eigen::Vector2d K = P_.col(0) / S;
   x_ += K * (speed_m_s - x_(0));

@@ -1,8 +1,8 @@
-/// Pitch, roll and ground axes out of the road's normal in the camera.
+/// Pitch, roll and ground axes from the road's normal in the camera.
 ///
-/// ISO 8855 angles: R_ground_veh = Rz(yaw) Ry(pitch) Rx(roll) with x forward, y left, z up, so
-/// pitch is positive nose DOWN and roll positive right side down. With veh axes x = cam z, y = -cam
-/// x, z = -cam y and n pointing down,
+/// ISO 8855 angles: R_ground_veh = Rz(yaw) Ry(pitch) Rx(roll) with x forward, y left, z up, so that
+/// pitch is positive nose DOWN and roll is positive right side down. With the vehicle's axes x =
+/// cam z, y = -cam x, z = -cam y and a normal that points down,
 ///   n = (cos p sin r, cos p cos r, sin p).
 ///
 /// Frames  cam: x right, y down, z forward.  ground: x forward, y left, z up.

@@ -1,17 +1,20 @@
-/// How roads bend upwards and downwards: the plane ahead against the one under the car.
+/// Statistics of how roads bend upwards and downwards: the plane ahead against the one under the
+/// car.
 ///
-/// The cues see the road 5 to 20 m ahead, scale wants the one that the car stands on. On a road of constant vertical
-/// curvature both the angle between them and the change of the plane's height over the camera are proportional to it.
+/// The cues see the road 5 to 20 m ahead, but the scale depends on the road under the car. On a
+/// road of constant vertical curvature, the angle between the two planes and the difference of
+/// their heights under the camera are both proportional to that curvature.
 ///
-/// Units  sines of angles, camera heights of way, ln h.
+/// Units  sines of angles; distance travelled in camera heights; ln h.
 #pragma once
 
 namespace plumb {
 
 struct RoadBend {
-  double start_std =
-      0.0;  ///< of n3 ahead against n3 here, until the drive tells; 0: roads are flat
-  double memory_ratio = 1.0;  ///< way over which a bend stays alike
+  /// 1-sigma of n3 ahead minus n3 under the car, until the drive shows its own; 0: flat roads.
+  double start_std = 0.0;
+  /// Distance travelled over which a bend stays correlated (first-order Gauss-Markov).
+  double correlation_length_ratio = 1.0;
   double height_slope = 0.0;  ///< d(ln h ahead) / d(bend)
 };
 

@@ -1,8 +1,9 @@
-/// What the ground estimator takes and gives: its states, cues' observations, inputs and outputs.
+/// Inputs and outputs of the ground estimator, and its status words.
 ///
-/// Frames   cam: x right, y down, z forward.  ground: x forward, y left, z up, on the road under the camera.
-///          world: cam of the first image.  T_a_b maps b to a.  Plane: normal_cam . X = height, n points DOWN.
-/// Units    [vo] is VO's own unit; names that end in _m are metric.
+/// Frames  cam: x right, y down, z forward.  world: cam of the first image.
+///         ground: x forward, y left, z up, on the road under the camera.
+///         T_a_b maps b to a.  Plane: normal_cam . X = height, the normal points DOWN.
+/// Units   [vo] is VO's own unit of length; names that end in _m are metric.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +13,11 @@
 
 #include "core/camera_model.hpp"
 #include "core/image_view.hpp"
+#include "core/numbers.hpp"
 #include "core/se3.hpp"
+#include "modules/ground/types/camera_height.hpp"
+#include "modules/ground/types/cue_measurements.hpp"
+#include "modules/ground/types/cue_table.hpp"
 #include "modules/ground/types/ground_config.hpp"
 #include "modules/vo/vo.hpp"
 
@@ -47,45 +52,38 @@ enum class EgoStatus : std::int8_t {
 /// Same numbers as ground_cue_t.status.
 enum class CueStatus : std::int8_t { kUsed = 0, kAbsent = 1, kGated = 2, kFailed = 3 };
 
-enum CueId : std::size_t { kCueDense = 0, kCuePoints = 1, kCueObjects = 2, kNumCues = 3 };
-
 inline constexpr std::size_t kMaxCueFeatures = 8;
 
-/// One cue's observation. NaN where the cue does not observe a component.
-struct CueObservation {
+/// What one cue reports about one frame. NaN where the cue does not observe a component.
+struct CueReport {
   CueStatus status = CueStatus::kAbsent;
-  double height = 0.0;  ///< [vo]
-  double n1 = 0.0;
-  double n3 = 0.0;
-  double height_var = 0.0;  ///< [vo^2]
-  double n1_var = 0.0;
-  double n3_var = 0.0;
+  double height = kNan;  ///< [vo]
+  double n1 = kNan;
+  double n3 = kNan;
+  double height_var = kNan;  ///< [vo^2] of this frame alone
+  double n1_var = kNan;
+  double n3_var = kNan;
   double quality = 0.0;  ///< [0, 1]
-  /// What the cue's covariance was predicted from, as its own algorithm defines it; in process only,
-  /// for learning and tests. Paper mode: widths of the slices in h, n1, n3 (dense), the vote's score
-  /// (points). Both modes: the variance by the boxes alone (objects).
+  /// Measured minus predicted (n1, n3, ln height) when the filter fused it; NaN where not observed.
+  Eigen::Vector3d innovation = Eigen::Vector3d::Constant(kNan);
+  /// Normalised innovation squared over its gate: above 1 the filter rejected the cue. NaN when the
+  /// cue was not tested.
+  double test_ratio = kNan;
+  /// What the cue's covariance was predicted from, as its own algorithm defines it; in process
+  /// only, for training and tests. Published method: widths of the slices in h, n1, n3 (dense),
+  /// score of the vote (points). Both methods: the variance by the boxes alone (objects).
   std::array<double, kMaxCueFeatures> features{};
   int num_features = 0;
 };
 
-/// Of a cue that did not look, with NaN for everything that it would observe.
-[[nodiscard]] CueObservation absent_cue();
-
-/// The calibration's where it states one.
-[[nodiscard]] double camera_height_of(const GroundConfig& config, const CameraModel& camera);
-
-/// The camera's pitch out of detected objects.
-struct ObjectNormal {
-  double n3 = 0.0;
-  double n3_var = 0.0;   ///< > 0
-  double belief = 0.0;   ///< what n3_var was predicted from: the variance by the boxes alone
-  double quality = 0.0;  ///< [0, 1]
-};
+/// One entry for each cue of kCueTable.
+using CueReports = std::array<CueReport, kNumCues>;
 
 struct GroundInput {
-  const VoOutput* vo = nullptr;                ///< never null
-  ImageView image;                             ///< image of vo->seq; empty when it did not arrive
-  std::span<const ObjectNormal> objects = {};  ///< brought to the same image (object_pitch.hpp)
+  const VoOutput* vo = nullptr;  ///< never null
+  ImageView image;               ///< image of vo->seq; empty when it did not arrive
+  std::span<const ObjectsMeasurement> objects = {};  ///< of the same image (objects_queue.hpp)
+  CameraHeight camera_height = {};                   ///< height_m 0: as configured or calibrated
 };
 
 /// The plane of the road ahead (`GroundConfig::road_near_m` to `road_far_m`).
@@ -97,7 +95,7 @@ struct PlaneOutput {
   double pitch_rad = 0.0;                                ///< nose DOWN positive (ISO 8855)
   double roll_rad = 0.0;                                 ///< right side down positive
   Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();         ///< of (pitch, roll, ln height)
-  std::array<CueObservation, kNumCues> cues{};
+  CueReports cues{};
 };
 
 struct EgoOutput {

@@ -65,6 +65,7 @@ ground_plane_t plane_of(int frame) {
   m.height_m = wave(frame, 1.65, 0.1, 21.0) + wild;
   for (int i = 0; i < 3; ++i) m.cov[i][i] = wave(frame + 5 * i, 3e-6, 2e-6, 15.0);
   m.num_cues = 3;
+  m.cues.resize(3);
   for (int i = 0; i < 3; ++i) m.cues[i].status = static_cast<std::int8_t>((frame >> i) % 2);
   return m;
 }

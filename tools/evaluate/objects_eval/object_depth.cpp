@@ -7,7 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "modules/datasets/text.hpp"
-#include "modules/ground/cues/detection_cue.hpp"
+#include "modules/ground/cues/objects_pitch.hpp"
 #include "modules/objects/objects.hpp"
 #include "tools/datasets/kitti_tracking/kitti_tracking.hpp"
 #include "tools/evaluate/objects_eval/foot_placement.hpp"
@@ -65,14 +65,14 @@ class SequenceRun {
 
   void step(int frame_number) {
     const DetectionFrame frame = detections_of_frame(boxes_, frame_number);
-    DetectionCueInput cue_input;
+    ObjectsPitchInput cue_input;
     cue_input.frame = &frame;
     cue_input.height_m = options_.camera_height_m;
-    const DetectionCueOutput& cue = cue_.update(cue_input);
+    const ObjectsPitchOutput& cue = cue_.update(cue_input);
     const double prior_std = options_.detections.pitch_std_rad;
     const RoadPlane calibrated = plane(options_.detections.mean_pitch_rad, prior_std * prior_std);
     const RoadPlane from_cue = plane(cue.pitch_rad, cue.pitch_var_rad2);
-    if (cue.status == DetectionCueStatus::kHolds) compare_pitch(frame_number, std::asin(cue.n3));
+    if (cue.status == ObjectsPitchStatus::kValid) compare_pitch(frame_number, std::asin(cue.n3));
 
     ObjectsInput input;
     input.frame = &frame;
@@ -143,7 +143,7 @@ class SequenceRun {
   TrackingCamera camera_;
   std::vector<TrackingRow> labels_;
   std::vector<TrackingRow> boxes_;
-  DetectionCue cue_;
+  ObjectsPitch cue_;
   ObjectTracker calibrated_tracker_;
   ObjectTracker cue_tracker_;
   SequenceDepth result_;

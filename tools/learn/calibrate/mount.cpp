@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "modules/ground/ground.hpp"
-#include "modules/ground/ground_model_source.hpp"
+#include "modules/chain/model_file_source.hpp"
 #include "modules/vo/vo.hpp"
 #include "tools/learn/calibrate/lens_fit.hpp"
 #include "tools/learn/train/truth_track.hpp"
@@ -46,7 +46,7 @@ class LengthBlock {
 void run_drive(const RecordedDrive& drive, const CameraModel& camera, const PlumbConfig& config,
                std::uint64_t seed, Sights* sights) {
   VisualOdometry vo(config.vo, camera, seed);
-  GroundEstimator ground(config.ground, camera, load_ground_model(config.ground.model_file));
+  GroundEstimator ground(config.ground, camera, load_models(config.ground.model_file).ground);
   std::optional<TruthTrack> truth;
   if (drive.has_true_poses) truth.emplace(drive.log, "");
   NullProbe probe;
@@ -103,7 +103,7 @@ Mount find_mount(const std::vector<RecordedDrive>& drives, const CameraModel& ca
                  const PlumbConfig& config, std::uint64_t seed) {
   Sights sights;
   for (const RecordedDrive& drive : drives) run_drive(drive, camera, config, seed, &sights);
-  const double nominal_m = camera_height_of(config.ground, camera);
+  const double nominal_m = camera_height_of(config.ground, camera).height_m;
   return {median_of(sights.pitch_rad, "frames with a measured road"),
           median_of(sights.roll_rad, "frames with a measured road"),
           median_of(sights.yaw_rad, "straight frames"),

@@ -10,7 +10,7 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t kFewestFrames = 20;
-constexpr double kLeastMemoryRatio = 0.1;
+constexpr double kLeastCorrelationLengthRatio = 0.1;
 
 struct BendFrame {
   double seq = 0.0;
@@ -22,9 +22,9 @@ struct BendFrame {
 std::vector<BendFrame> bends_of(const DriveSamples& drive) {
   std::vector<BendFrame> frames;
   for (const Sample& s : drive.frames) {
-    if (!(s.has_plane > 0.5) || !std::isfinite(s.travel_err)) continue;
+    if (!(s.has_plane > 0.5) || !std::isfinite(s.chord_err)) continue;
     frames.push_back(
-        {s.seq, s.step_ratio, s.travel_err, std::log(s.true_height_m / s.nominal_height_m)});
+        {s.seq, s.step_ratio, s.chord_err, std::log(s.true_height_m / s.nominal_height_m)});
   }
   return frames;
 }
@@ -54,9 +54,9 @@ std::optional<RoadBend> fit_bend(const std::vector<DriveSamples>& drives) {
   bend.height_slope = product_sum / square_sum;
   for (auto& drive : bends)
     for (TimedError& frame : drive) frame.sigmas /= bend.start_std;
-  bend.memory_ratio =
-      std::max(kLeastMemoryRatio,
-               memory_of_repetition(repetition_of_errors(bends), steps / static_cast<double>(num)));
+  bend.correlation_length_ratio = std::max(
+      kLeastCorrelationLengthRatio,
+      correlation_length_of(correlated_images_of(bends), steps / static_cast<double>(num)));
   return bend;
 }
 

@@ -1,4 +1,5 @@
-/// How roads bend (RoadBend), out of samples with true planes: the true plane ahead against the direction of travel.
+/// Fits how roads bend (RoadBend) from samples with true planes: the true plane ahead against the
+/// direction of translation.
 #pragma once
 
 #include <optional>
@@ -9,9 +10,10 @@
 
 namespace plumb {
 
-/// Root mean square of the bend, its memory, and the line through ln(true over nominal height) against it. The angle
-/// between plane and travel is taken for the bend: the noise of the direction of travel, about a tenth of it, makes the
-/// slope smaller by a hundredth. Null without enough frames that have a true plane.
+/// Fits the bend's root mean square, its correlation length, and the slope of ln(true over nominal
+/// height) against it. The angle between plane and direction of translation is taken as the bend;
+/// the noise of that direction, about a tenth of it, makes the slope smaller by a hundredth. Null
+/// without enough frames that have a true plane.
 [[nodiscard]] std::optional<RoadBend> fit_bend(const std::vector<DriveSamples>& drives);
 
 }  // namespace plumb

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/pose_wire.hpp"
-#include "modules/ground/covariance/cue_covariance.hpp"
-#include "modules/ground/filter/plane_filter.hpp"
+#include "modules/ground/covariance/fixed_covariance.hpp"
+#include "modules/ground/types/plane_state.hpp"
 
 namespace plumb {
 namespace {
@@ -20,10 +20,10 @@ Eigen::Vector3d true_state(const CueReference& reference) {
 
 }  // namespace
 
-void write_dense(const GroundSight& sight, const CueReference& reference, Sample* sample) {
-  const DenseObservation& dense = sight.dense;
+void write_dense(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample) {
+  const DenseMeasurement& dense = diagnostics.dense;
   if (!dense.ok) return;
-  sample->dense_used = sight.dense_status == CueStatus::kUsed ? 1.0 : 0.0;
+  sample->dense_used = diagnostics.cues[kCueDense].status == CueStatus::kUsed ? 1.0 : 0.0;
   sample->dense_ncc = dense.ncc;
   sample->dense_sad = dense.sad;
   sample->dense_still_ncc = dense.still_ncc;
@@ -41,7 +41,7 @@ void write_dense(const GroundSight& sight, const CueReference& reference, Sample
   sample->dense_slope_n1 = slope(0);
   sample->dense_slope_n3 = slope(1);
 
-  const Eigen::Matrix3d hand = FloorCovariance().dense(dense, sight.context);
+  const Eigen::Matrix3d hand = FixedCovariance().dense(dense, diagnostics.context);
   sample->dense_hand_var_n1 = hand(0, 0);
   sample->dense_hand_var_n3 = hand(1, 1);
   sample->dense_hand_var_height = hand(2, 2);
@@ -57,11 +57,12 @@ void write_dense(const GroundSight& sight, const CueReference& reference, Sample
   sample->dense_err_n3 = state(1) - true_state(reference)(1);
 }
 
-void write_points(const GroundSight& sight, const CueReference& reference, Sample* sample) {
-  const PointsObservation& points = sight.points;
+void write_points(const CueDiagnostics& diagnostics, const CueReference& reference,
+                  Sample* sample) {
+  const PointsMeasurement& points = diagnostics.points;
   const double height = reference.normal_cam.dot(points.centre);
   if (!points.ok || !(height > 0.0)) return;
-  sample->points_used = sight.points_status == CueStatus::kUsed ? 1.0 : 0.0;
+  sample->points_used = diagnostics.cues[kCuePoints].status == CueStatus::kUsed ? 1.0 : 0.0;
   sample->points_num_candidates = points.num_candidates;
   sample->points_num_inliers = points.num_inliers;
   sample->points_score = points.score;
@@ -71,29 +72,42 @@ void write_points(const GroundSight& sight, const CueReference& reference, Sampl
   sample->points_slope_n3 = slope(1);
   sample->points_err = std::log(height) - reference.ln_height;
   sample->points_ref_var = slope * reference.normal_cov * slope.transpose();
-  sample->points_hand_var = FloorCovariance().points(points, sight.context);
+  sample->points_hand_var = FixedCovariance().points(points, diagnostics.context);
 }
 
-void write_travel(const GroundSight& sight, const CueReference& reference, Sample* sample) {
-  const Travel& travel = sight.travel;
-  if (!travel.valid || !sight.searched) return;
-  sample->travel_chord_ratio = travel.chord_length / std::exp(reference.ln_height);
-  sample->travel_num_frames = travel.num_chord_frames;
-  sample->travel_hand_var = FloorCovariance().travel(travel, sight.context);
-  sample->travel_ref = reference.normal_cam.dot(travel.direction);
-  if (reference.plane != nullptr) sample->travel_err = sample->travel_ref;
+void write_chord(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample) {
+  const Chord& chord = diagnostics.chord;
+  if (!chord.valid || !diagnostics.measurable) return;
+  sample->chord_ratio = chord.length / std::exp(reference.ln_height);
+  sample->chord_num_frames = chord.num_frames;
+  sample->chord_hand_var = FixedCovariance().chord(chord, diagnostics.context);
+  sample->chord_ref = reference.normal_cam.dot(chord.direction);
+  if (reference.plane != nullptr) sample->chord_err = sample->chord_ref;
 }
 
-void write_objects(const CueObservation& objects, const TruePlane* truth, Sample* sample) {
+void write_cues(const CueReports& reports, Sample* sample) {
+  for (std::size_t i = 0; i < kNumCues; ++i) {
+    const CueReport& report = reports[i];
+    CueSample& cue = sample->cues[i];
+    cue.status = static_cast<double>(report.status);
+    cue.quality = report.quality;
+    cue.innovation_n1 = report.innovation(0);
+    cue.innovation_n3 = report.innovation(1);
+    cue.innovation_ln_height = report.innovation(2);
+    cue.test_ratio = report.test_ratio;
+  }
+}
+
+void write_objects(const CueReport& objects, const TruePlane* truth, Sample* sample) {
   const bool seen = objects.status == CueStatus::kUsed || objects.status == CueStatus::kGated;
   if (!seen || truth == nullptr) return;
-  sample->objects_belief = objects.features[0];
+  sample->objects_confidence = objects.features[0];
   sample->objects_err_n3 = objects.n3 - truth->normal_cam.z();
 }
 
 void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,
                  const TruePlane* truth, Sample* sample) {
-  const CueObservation& dense = plane.cues[kCueDense];
+  const CueReport& dense = plane.cues[kCueDense];
   if (dense.status != CueStatus::kAbsent && dense.num_features == 3) {
     sample->paper_width_height = dense.features[0];
     sample->paper_width_n1 = dense.features[1];
@@ -104,7 +118,7 @@ void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_hei
       sample->paper_err_n3 = dense.n3 - truth->normal_cam.z();
     }
   }
-  const CueObservation& points = plane.cues[kCuePoints];
+  const CueReport& points = plane.cues[kCuePoints];
   if (points.status != CueStatus::kAbsent && points.num_features == 1) {
     sample->paper_vote = points.features[0];
     sample->paper_err_points = points.height * metres_per_vo - true_height_m;

@@ -7,14 +7,14 @@
 
 #include "core/se3.hpp"
 #include "modules/datasets/kitti/plane_file.hpp"
-#include "modules/ground/covariance/ground_sight.hpp"
+#include "modules/ground/cues/cue_diagnostics.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "tools/learn/train/sample.hpp"
 
 namespace plumb {
 
-/// What the cues are held against.
+/// What the cues are compared with.
 struct CueReference {
   double ln_height = 0.0;  ///< true, [vo]
   const TruePlane* plane = nullptr;
@@ -22,11 +22,13 @@ struct CueReference {
   Eigen::Matrix2d normal_cov = Eigen::Matrix2d::Zero();   ///< of (n1, n3); zero for the true one
 };
 
-void write_dense(const GroundSight& sight, const CueReference& reference, Sample* sample);
-void write_points(const GroundSight& sight, const CueReference& reference, Sample* sample);
-void write_travel(const GroundSight& sight, const CueReference& reference, Sample* sample);
-/// Without true plane nothing.
-void write_objects(const CueObservation& objects, const TruePlane* truth, Sample* sample);
+void write_dense(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample);
+void write_points(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample);
+void write_chord(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample);
+/// What every cue of kCueTable reported.
+void write_cues(const CueReports& reports, Sample* sample);
+/// Writes nothing without a true plane.
+void write_objects(const CueReport& objects, const TruePlane* truth, Sample* sample);
 
 /// The published method's cues; `truth` may be null.
 void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,

@@ -9,10 +9,10 @@
 namespace plumb {
 namespace {
 
-// Frames over which correlations are summed: about what the filter remembers.
+// Frames over which correlations are summed: about the filter's own memory.
 constexpr int kMostLag = 15;
 constexpr std::size_t kFewestRows = 20;
-constexpr double kMostHeldOutNees = 10.0;  // one drive that went wrong says no more than this
+constexpr double kMostHeldOutNees = 10.0;  // a drive that failed counts no more than this
 
 std::vector<std::vector<TargetRow>> rows_per_drive(Target target,
                                                    const std::vector<DriveSamples>& drives,
@@ -41,19 +41,20 @@ double mean_step_ratio(const std::vector<std::vector<TargetRow>>& drives) {
   return sum / num;
 }
 
-double* memory_of(Target target, GroundModel* model) {
+double* correlation_length_in(Target target, GroundModel* model) {
   switch (target) {
     case Target::kDenseHeight:
-      return &model->dense_memory_ratio;
+      return &model->dense_correlation_length_ratio;
     case Target::kPoints:
-      return &model->points_memory_ratio;
+      return &model->points_correlation_length_ratio;
     default:
       return nullptr;
   }
 }
 
-/// Drives differ by more than the frames within them: on a drive that a fit did not see, its variances are too small by
-/// this factor, the mean of the held-out drives' mean squared errors.
+/// Drives differ from each other more than the frames within them. On a drive that a fit did not
+/// see, its variances are too small by this factor: the mean over held-out drives of the normalised
+/// squared error.
 double held_out_factor(Target target, const std::vector<std::vector<TargetRow>>& drives) {
   double sum = 0.0;
   int num = 0;
@@ -74,7 +75,7 @@ double held_out_factor(Target target, const std::vector<std::vector<TargetRow>>&
 
 }  // namespace
 
-double repetition_of_errors(const std::vector<std::vector<TimedError>>& drives) {
+double correlated_images_of(const std::vector<std::vector<TimedError>>& drives) {
   const auto bounded = [](const TimedError& e) { return std::clamp(e.sigmas, -3.0, 3.0); };
   double square = 0.0;
   double product = 0.0;
@@ -89,7 +90,8 @@ double repetition_of_errors(const std::vector<std::vector<TimedError>>& drives) 
   return square > 0.0 ? std::max(1.0, 1.0 + product / square) : 1.0;
 }
 
-double repetition_in(const std::vector<std::vector<TargetRow>>& drives, const LogVariance& model) {
+double correlated_images_in(const std::vector<std::vector<TargetRow>>& drives,
+                            const LogVariance& model) {
   std::vector<std::vector<TimedError>> errors(drives.size());
   for (std::size_t i = 0; i < drives.size(); ++i) {
     for (const TargetRow& row : drives[i]) {
@@ -97,20 +99,20 @@ double repetition_in(const std::vector<std::vector<TargetRow>>& drives, const Lo
       errors[i].push_back({row.seq, row.row.error / std::sqrt(var)});
     }
   }
-  return repetition_of_errors(errors);
+  return correlated_images_of(errors);
 }
 
-double memory_of_repetition(double repetition, double step_ratio) {
-  // repetition = coth(step / (2 memory))
-  if (repetition <= 1.0 + 1e-6) return 0.0;
-  return 0.5 * step_ratio / std::atanh(1.0 / repetition);
+double correlation_length_of(double num_images, double step_ratio) {
+  // num_images = coth(step / (2 length))
+  if (num_images <= 1.0 + 1e-6) return 0.0;
+  return 0.5 * step_ratio / std::atanh(1.0 / num_images);
 }
 
 GroundModel fit_targets(const std::vector<DriveSamples>& drives, const GroundModel& start,
                         std::span<const Target> targets) {
   GroundModel model = start;
-  // First: the cues' rows of drives without true planes lean on it.
-  if (std::find(targets.begin(), targets.end(), Target::kTravel) != targets.end())
+  // First, because the cues' rows of drives without true planes use it.
+  if (std::find(targets.begin(), targets.end(), Target::kChord) != targets.end())
     model.bend = fit_bend(drives).value_or(start.bend);
   for (const Target target : targets) {
     const auto rows = rows_per_drive(target, drives, model);
@@ -119,8 +121,8 @@ GroundModel fit_targets(const std::vector<DriveSamples>& drives, const GroundMod
     LogVariance& cue = model_of(target, &model);
     cue = fit_log_variance(all, prior_of(target), bounds_of(target));
     cue.ln_var += std::log(held_out_factor(target, rows));
-    if (double* memory = memory_of(target, &model))
-      *memory = memory_of_repetition(repetition_in(rows, cue), mean_step_ratio(rows));
+    if (double* length = correlation_length_in(target, &model))
+      *length = correlation_length_of(correlated_images_in(rows, cue), mean_step_ratio(rows));
   }
   return model;
 }
@@ -146,28 +148,29 @@ std::vector<HeldOutScore> leave_one_out(const std::vector<DriveSamples>& drives,
   return scores;
 }
 
-std::vector<BeliefFit> fit_paper(const std::vector<DriveSamples>& drives, GroundModel* model) {
+std::vector<ConfidenceFit> fit_paper(const std::vector<DriveSamples>& drives, PaperModel* model) {
   struct Line {
     const char* name;
-    double Sample::*belief;
+    double Sample::*confidence;
     double Sample::*error;
     LinearVariance* line;
   };
   const Line lines[] = {
-      {"h", &Sample::paper_width_height, &Sample::paper_err_height, &model->paper.dense_h},
-      {"n1", &Sample::paper_width_n1, &Sample::paper_err_n1, &model->paper.dense_n1},
-      {"n3", &Sample::paper_width_n3, &Sample::paper_err_n3, &model->paper.dense_n3},
-      {"points h", &Sample::paper_vote, &Sample::paper_err_points, &model->paper.points_h}};
-  std::vector<BeliefFit> fits;
+      {"h", &Sample::paper_width_height, &Sample::paper_err_height, &model->dense_h},
+      {"n1", &Sample::paper_width_n1, &Sample::paper_err_n1, &model->dense_n1},
+      {"n3", &Sample::paper_width_n3, &Sample::paper_err_n3, &model->dense_n3},
+      {"points h", &Sample::paper_vote, &Sample::paper_err_points, &model->points_h}};
+  std::vector<ConfidenceFit> fits;
   for (const Line& line : lines) {
-    std::vector<Belief> beliefs;
+    std::vector<Confidence> confidences;
     for (const DriveSamples& drive : drives) {
       for (const Sample& s : drive.frames) {
-        const Belief belief{s.*line.belief, s.*line.error};
-        if (std::isfinite(belief.belief) && std::isfinite(belief.error)) beliefs.push_back(belief);
+        const Confidence confidence{s.*line.confidence, s.*line.error};
+        if (std::isfinite(confidence.confidence) && std::isfinite(confidence.error))
+          confidences.push_back(confidence);
       }
     }
-    BeliefFit fit{line.name, bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
+    ConfidenceFit fit{line.name, bin_confidences(std::move(confidences), kNumConfidenceBins), {}};
     if (fit.bins.size() < 2) continue;
     fit.line = *line.line = fit_line(fit.bins);
     fits.push_back(std::move(fit));
@@ -175,15 +178,16 @@ std::vector<BeliefFit> fit_paper(const std::vector<DriveSamples>& drives, Ground
   return fits;
 }
 
-std::optional<BeliefFit> fit_objects(const std::vector<DriveSamples>& drives, GroundModel* model) {
+std::optional<ConfidenceFit> fit_objects(const std::vector<DriveSamples>& drives,
+                                         GroundModel* model) {
   const auto seen = [](const Sample& s) { return std::isfinite(s.objects_err_n3); };
-  std::vector<Belief> beliefs;
+  std::vector<Confidence> confidences;
   for (const DriveSamples& drive : drives) {
     for (const Sample& s : drive.frames)
-      if (seen(s)) beliefs.push_back({s.objects_belief, s.objects_err_n3});
+      if (seen(s)) confidences.push_back({s.objects_confidence, s.objects_err_n3});
   }
-  if (beliefs.size() < kFewestRows) return std::nullopt;
-  BeliefFit fit{"objects n3", bin_beliefs(std::move(beliefs), kNumBeliefBins), {}};
+  if (confidences.size() < kFewestRows) return std::nullopt;
+  ConfidenceFit fit{"objects n3", bin_confidences(std::move(confidences), kNumConfidenceBins), {}};
   fit.line = model->objects_n3 = fit_line(fit.bins);
   std::vector<std::vector<TimedError>> errors;
   for (const DriveSamples& drive : drives) {
@@ -191,10 +195,10 @@ std::optional<BeliefFit> fit_objects(const std::vector<DriveSamples>& drives, Gr
     for (const Sample& s : drive.frames) {
       if (seen(s))
         errors.back().push_back(
-            {s.seq, s.objects_err_n3 / std::sqrt(fit.line.of(s.objects_belief))});
+            {s.seq, s.objects_err_n3 / std::sqrt(fit.line.of(s.objects_confidence))});
     }
   }
-  model->objects_repetition = repetition_of_errors(errors);
+  model->objects_correlated_images = correlated_images_of(errors);
   return fit;
 }
 

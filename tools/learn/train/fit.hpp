@@ -1,4 +1,5 @@
-/// The reduce step: samples of many drives -> one model, with scores on drives that the fit did not see.
+/// The reduce step: samples of many drives -> one model, with scores on drives that the fit did not
+/// see.
 #pragma once
 
 #include <optional>
@@ -6,49 +7,55 @@
 #include <string>
 #include <vector>
 
-#include "tools/learn/train/belief_line.hpp"
+#include "modules/ground_paper/paper_model.hpp"
+#include "tools/learn/train/confidence_line.hpp"
 #include "tools/learn/train/targets.hpp"
 
 namespace plumb {
 
-/// Fits the models of these targets, the cues' with their memories, travel's with the road's bend; what `start` holds and the samples say nothing about
-/// stays. A target without rows keeps its model. @pre drives not empty
+/// Fits the variances of these targets, and the correlation lengths of the cues of the height. For
+/// the direction of translation it also fits the road's bend. Everything else, and a target without
+/// rows, stays as in `start`. @pre drives not empty
 [[nodiscard]] GroundModel fit_targets(const std::vector<DriveSamples>& drives,
                                       const GroundModel& start,
                                       std::span<const Target> targets = kTargets);
 
-/// Deviation of a whole drive's scale, so that what was reported gets a mean square of one on the typical drive, their
-/// median: on the mean, one bad drive would make all others doubt themselves. Samples of another algorithm than
-/// "learned" leave it as it is.
+/// Fits the standard deviation of a whole drive's scale so that the reported scales have a mean
+/// normalised squared error of one on the median drive. With the mean over drives, one bad drive
+/// would make the model doubt all others. Samples of another algorithm than "learned" leave it as
+/// it is.
 void fit_scale_bias(const std::vector<DriveSamples>& drives, GroundModel* model);
 
-/// A line that tells a variance by one belief, and what it was drawn through.
-struct BeliefFit {
+/// A line that predicts a variance from a confidence, and the bins that it was fitted to.
+struct ConfidenceFit {
   const char* name = "";
-  std::vector<BeliefBin> bins;
+  std::vector<ConfidenceBin> bins;
   LinearVariance line;
 };
-/// The published method's lines (algorithm "paper").
-[[nodiscard]] std::vector<BeliefFit> fit_paper(const std::vector<DriveSamples>& drives,
-                                               GroundModel* model);
+/// Fits the published method's lines, from samples of algorithm "paper".
+[[nodiscard]] std::vector<ConfidenceFit> fit_paper(const std::vector<DriveSamples>& drives,
+                                                   PaperModel* model);
 
-/// Model C_d of Algorithm 1, objects_n3 and objects_repetition: out of the samples of drives with detections and true
-/// planes; without any, null and the model stays.
-[[nodiscard]] std::optional<BeliefFit> fit_objects(const std::vector<DriveSamples>& drives,
-                                                   GroundModel* model);
+/// Fits model C_d of Algorithm 1 (objects_n3) and objects_correlated_images, from drives with
+/// detections and true planes. Without any it returns null and leaves the model as it is.
+[[nodiscard]] std::optional<ConfidenceFit> fit_objects(const std::vector<DriveSamples>& drives,
+                                                       GroundModel* model);
 
-/// One frame's error over its deviation.
+/// One frame's error over its standard deviation.
 struct TimedError {
   double seq = 0.0;
   double sigmas = 0.0;
 };
-/// Sum of the errors' correlations with those of the frames before, both ways, and the memory that has the same sum.
-[[nodiscard]] double repetition_of_errors(const std::vector<std::vector<TimedError>>& drives);
-[[nodiscard]] double repetition_in(const std::vector<std::vector<TargetRow>>& drives,
-                                   const LogVariance& model);
-[[nodiscard]] double memory_of_repetition(double repetition, double step_ratio);
+/// The number of images that share one independent error: the sum of the errors' correlations with
+/// those of the frames before and after.
+[[nodiscard]] double correlated_images_of(const std::vector<std::vector<TimedError>>& drives);
+[[nodiscard]] double correlated_images_in(const std::vector<std::vector<TargetRow>>& drives,
+                                          const LogVariance& model);
+/// The correlation length, in camera heights, that gives this number of images at such steps.
+[[nodiscard]] double correlation_length_of(double num_images, double step_ratio);
 
-/// One drive and target: a model that did not see the drive, beside the one set by hand.
+/// Scores for one drive and target: of a model that did not see the drive, and of the covariances
+/// set by hand.
 struct HeldOutScore {
   std::string drive;
   Target target = Target::kDenseHeight;
@@ -60,7 +67,7 @@ struct HeldOutScore {
                                                       const GroundModel& start,
                                                       std::span<const Target> targets = kTargets);
 
-/// Mean squared ratio of error and reported deviation, per drive and quantity.
+/// Mean normalised squared error of what was reported, for one drive and quantity.
 struct OutputScore {
   std::string drive;
   std::string quantity;
@@ -69,5 +76,16 @@ struct OutputScore {
   double mean_std = 0.0;  ///< root of the mean variance
 };
 [[nodiscard]] std::vector<OutputScore> score_outputs(const std::vector<DriveSamples>& drives);
+
+/// How the filter judged one cue of kCueTable on one drive.
+struct CueScore {
+  std::string drive;
+  std::string cue;
+  int num_used = 0;
+  int num_rejected = 0;          ///< by the gate
+  double mean_test_ratio = 0.0;  ///< of the used and rejected frames that have one; else NaN
+};
+/// One score for each cue and drive on which the cue measured anything.
+[[nodiscard]] std::vector<CueScore> score_cues(const std::vector<DriveSamples>& drives);
 
 }  // namespace plumb

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "core/input_error.hpp"
-#include "modules/ground/ground_model_source.hpp"
+#include "modules/chain/model_file_source.hpp"
 #include "tools/learn/train/fit_report.hpp"
 
 namespace plumb {
@@ -26,7 +26,7 @@ std::vector<DriveSamples> read(const std::vector<std::string>& names) {
   return read_all_samples({names.begin(), names.end()});
 }
 
-/// Those to fit; the named ones are taken away.
+/// The drives to fit: all but the named ones.
 std::vector<DriveSamples> without(const std::vector<DriveSamples>& drives,
                                   const std::vector<std::string>& held_out) {
   std::vector<DriveSamples> rest;
@@ -43,12 +43,12 @@ std::vector<DriveSamples> without(const std::vector<DriveSamples>& drives,
   return rest;
 }
 
-void write_model(const GroundModel& model, const std::string& path) {
+void write_models(const TrainedModels& models, const std::string& path) {
   std::ofstream file(path);
-  file << ground_model_text(model);
+  file << models_text(models);
   file.close();
   if (!file) throw InputError("cannot write " + path);
-  (void)load_ground_model(path);  // a number outside its range must show here, not in a vehicle
+  (void)load_models(path);  // a number outside its range must show here, not in a vehicle
 }
 
 void add_origin(const FitCommand& command, const std::vector<DriveSamples>& drives,
@@ -69,13 +69,13 @@ void add_origin(const FitCommand& command, const std::vector<DriveSamples>& driv
 
 void fit_learned(const FitCommand& command, const std::vector<DriveSamples>& all,
                  const std::vector<DriveSamples>& drives, FitReport* report) {
-  const GroundModel start = report->model;
+  const GroundModel start = report->models.ground;
   const auto targets = command.plane_only ? std::span<const Target>(kPlaneTargets) : kTargets;
   if (all.size() > 1) report->held_out = leave_one_out(all, start, targets);
-  report->model = fit_targets(drives, start, targets);
+  report->models.ground = fit_targets(drives, start, targets);
   if (command.plane_only) return;
-  fit_scale_bias(drives, &report->model);
-  report->objects = fit_objects(drives, &report->model);
+  fit_scale_bias(drives, &report->models.ground);
+  report->objects = fit_objects(drives, &report->models.ground);
 }
 
 }  // namespace
@@ -102,9 +102,9 @@ int run_fit_command(const FitCommand& command) {
   const std::vector<DriveSamples> all = read(command.samples);
   const std::vector<DriveSamples> drives = without(all, command.hold_out);
   FitReport report;
-  report.model = load_ground_model(command.start);
+  report.models = load_models(command.start);
   if (all.front().algorithm == "paper") {
-    report.paper = fit_paper(drives, &report.model);
+    report.paper = fit_paper(drives, &report.models.paper);
     std::cout << to_text(report.paper);
   } else {
     fit_learned(command, all, drives, &report);
@@ -112,9 +112,10 @@ int run_fit_command(const FitCommand& command) {
     if (report.objects) std::cout << to_text({*report.objects});
   }
   report.outputs = score_outputs(all);
-  std::cout << to_text(report.outputs);
-  add_origin(command, drives, &report.model);
-  write_model(report.model, command.out);
+  report.cues = score_cues(all);
+  std::cout << to_text(report.outputs) << to_text(report.cues);
+  add_origin(command, drives, &report.models.ground);
+  write_models(report.models, command.out);
   if (!command.json.empty()) write_json(report, command.json);
   if (!command.plots.empty()) {
     for (const auto& file : draw_fit(drives, report, command.plots, command.plot_format))
@@ -133,8 +134,10 @@ CLI::App* add_score_command(CLI::App* app, ScoreCommand* command) {
 
 int run_score_command(const ScoreCommand& command) {
   FitReport report;
-  report.outputs = score_outputs(read(command.samples));
-  std::cout << to_text(report.outputs);
+  const std::vector<DriveSamples> drives = read(command.samples);
+  report.outputs = score_outputs(drives);
+  report.cues = score_cues(drives);
+  std::cout << to_text(report.outputs) << to_text(report.cues);
   if (!command.json.empty()) write_json(report, command.json);
   return 0;
 }

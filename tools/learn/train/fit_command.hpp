@@ -19,7 +19,7 @@ struct FitCommand {
 CLI::App* add_fit_command(CLI::App* app, FitCommand* command);
 int run_fit_command(const FitCommand& command);
 
-/// plumb-train score: what was reported against truth, out of samples.
+/// plumb-train score: what was reported against the truth, from samples.
 struct ScoreCommand {
   std::vector<std::string> samples;
   std::string json;

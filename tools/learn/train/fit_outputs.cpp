@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.hpp"
+#include "modules/ground/types/ground_types.hpp"
 #include "tools/learn/train/fit.hpp"
 
 namespace plumb {
@@ -22,7 +24,7 @@ constexpr Quantity kQuantities[] = {kScale,
 constexpr int kBisections = 60;
 constexpr double kLargestBiasStd = 0.5;
 
-/// Noise of the true scale and step: not the estimate's.
+/// Noise of the true scale and step, which is not the estimate's.
 double truth_var(const Quantity& q, const Sample& s) {
   if (q.error == &Sample::out_scale_err) return s.truth_ln_std * s.truth_ln_std;
   if (q.error != &Sample::out_step_err || !(s.true_step_m > 0.0)) return 0.0;
@@ -39,7 +41,8 @@ VarianceScore score_drive(const Quantity& q, const DriveSamples& drive) {
   return sum.mean();
 }
 
-/// Median over drives of the scale's mean squared ratio with that bias in place of the run's; 0 without any drive.
+/// Median over drives of the scale's mean normalised squared error, with that bias in place of the
+/// run's; 0 without any drive.
 double typical_nees(const std::vector<DriveSamples>& drives, double bias_std) {
   std::vector<double> nees;
   for (const DriveSamples& drive : drives) {
@@ -87,6 +90,27 @@ std::vector<OutputScore> score_outputs(const std::vector<DriveSamples>& drives) 
       score.rms_error = std::sqrt(error2 / num);
       score.mean_std = std::sqrt(var / num);
       scores.push_back(score);
+    }
+  }
+  return scores;
+}
+
+std::vector<CueScore> score_cues(const std::vector<DriveSamples>& drives) {
+  std::vector<CueScore> scores;
+  for (std::size_t i = 0; i < kNumCues; ++i) {
+    for (const DriveSamples& drive : drives) {
+      CueScore score{drive.drive, kCueTable[i].name, 0, 0, 0.0};
+      int num_tested = 0;
+      for (const Sample& s : drive.frames) {
+        const CueSample& cue = s.cues[i];
+        score.num_used += cue.status == static_cast<double>(CueStatus::kUsed) ? 1 : 0;
+        score.num_rejected += cue.status == static_cast<double>(CueStatus::kGated) ? 1 : 0;
+        if (!std::isfinite(cue.test_ratio)) continue;
+        score.mean_test_ratio += cue.test_ratio;
+        ++num_tested;
+      }
+      score.mean_test_ratio = num_tested > 0 ? score.mean_test_ratio / num_tested : kNan;
+      if (score.num_used + score.num_rejected > 0) scores.push_back(score);
     }
   }
   return scores;

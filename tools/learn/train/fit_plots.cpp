@@ -12,48 +12,49 @@ namespace fs = std::filesystem;
 
 constexpr int kPlotBins = 20;
 
-/// |error| over the foretold deviation, and the root mean square in bins of equal count beside the line y = x.
+/// |error| over the predicted 1-sigma, and the root mean square in bins of equal count beside the
+/// line y = x.
 Plot calibration_plot(Target target, const std::vector<DriveSamples>& drives,
                       const GroundModel& model) {
-  std::vector<Belief> beliefs;
+  std::vector<Confidence> confidences;
   for (const DriveSamples& drive : drives) {
     for (const TargetRow& row : rows_of(target, drive, model)) {
       const double var = model_of(target, model).of(row.row.features) + row.row.extra_var;
-      beliefs.push_back({std::sqrt(var), row.row.error});
+      confidences.push_back({std::sqrt(var), row.row.error});
     }
   }
-  Curve marks{"|error|", {}, {}, true}, line{"error = deviation", {}, {}, false};
+  Curve marks{"|error|", {}, {}, true}, line{"error = 1-sigma", {}, {}, false};
   Curve binned{"rms of bins", {}, {}, false};
   double most = 0.0;
-  for (const Belief& b : beliefs) {
-    marks.x.push_back(b.belief);
-    marks.y.push_back(std::min(std::abs(b.error), 4.0 * b.belief));
-    most = std::max(most, b.belief);
+  for (const Confidence& b : confidences) {
+    marks.x.push_back(b.confidence);
+    marks.y.push_back(std::min(std::abs(b.error), 4.0 * b.confidence));
+    most = std::max(most, b.confidence);
   }
-  for (const BeliefBin& bin : bin_beliefs(beliefs, kPlotBins)) {
+  for (const ConfidenceBin& bin : bin_confidences(confidences, kPlotBins)) {
     binned.x.push_back(bin.centre);
     binned.y.push_back(std::sqrt(bin.variance));
   }
   line.x = {0.0, most};
   line.y = {0.0, most};
-  return {std::string(target_name(target)) + ": errors against foretold deviations",
-          "foretold 1-sigma",
-          "|error| (drawn up to four times the deviation)",
+  return {std::string(target_name(target)) + ": errors against predicted standard deviations",
+          "predicted 1-sigma",
+          "|error| (drawn up to 4 sigma)",
           {marks, binned, line},
           false,
           true};
 }
 
-Plot belief_plot(const BeliefFit& fit) {
+Plot confidence_plot(const ConfidenceFit& fit) {
   Curve bins{"bins of equal count", {}, {}, true}, line{"line", {}, {}, false};
-  for (const BeliefBin& bin : fit.bins) {
+  for (const ConfidenceBin& bin : fit.bins) {
     bins.x.push_back(bin.centre);
     bins.y.push_back(bin.variance);
     line.x.push_back(bin.centre);
     line.y.push_back(fit.line.of(bin.centre));
   }
-  return {std::string(fit.name) + ": error variance by belief",
-          "belief",
+  return {std::string(fit.name) + ": error variance by confidence",
+          "confidence",
           "mean squared error",
           {bins, line},
           false,
@@ -69,20 +70,20 @@ std::vector<fs::path> draw_fit(const std::vector<DriveSamples>& drives, const Fi
   if (error) throw InputError("cannot make folder " + folder.string() + ": " + error.message());
   std::vector<fs::path> files;
   for (const Target target : kTargets) {
-    const Plot plot = calibration_plot(target, drives, report.model);
+    const Plot plot = calibration_plot(target, drives, report.models.ground);
     if (plot.curves.front().x.empty()) continue;
     files.push_back(folder / (std::string(target_name(target)) + "." + format));
     draw({plot}, files.back());
   }
-  std::vector<Plot> beliefs;
-  for (const BeliefFit& fit : report.paper) beliefs.push_back(belief_plot(fit));
-  if (!beliefs.empty()) {
-    files.push_back(folder / ("paper_beliefs." + format));
-    draw(beliefs, files.back());
+  std::vector<Plot> confidences;
+  for (const ConfidenceFit& fit : report.paper) confidences.push_back(confidence_plot(fit));
+  if (!confidences.empty()) {
+    files.push_back(folder / ("paper_confidences." + format));
+    draw(confidences, files.back());
   }
   if (report.objects) {
-    files.push_back(folder / ("objects_belief." + format));
-    draw({belief_plot(*report.objects)}, files.back());
+    files.push_back(folder / ("objects_confidence." + format));
+    draw({confidence_plot(*report.objects)}, files.back());
   }
   return files;
 }

@@ -16,12 +16,14 @@ Json to_json(const VarianceScore& score) {
   return {{"num", score.num}, {"nees", score.nees}, {"log_likelihood", score.log_likelihood}};
 }
 
-Json model_json(const GroundModel& model) {
+Json model_json(const TrainedModels& models) {
   Json json;
-  GroundModel copy = model;
-  GroundModel::visit(copy, [&json](const char* key, double& value, double, double, const char*) {
+  TrainedModels copy = models;
+  const auto add = [&json](const char* key, double& value, double, double, const char*) {
     json[key] = value;
-  });
+  };
+  GroundModel::visit(copy.ground, add);
+  PaperModel::visit(copy.paper, add);
   return json;
 }
 
@@ -57,7 +59,7 @@ std::string to_text(const std::vector<HeldOutScore>& scores) {
 
 std::string to_text(const std::vector<OutputScore>& scores) {
   std::string text =
-      "What was reported: mean squared error over variance, error and stated deviation (rms)\n";
+      "What was reported: mean squared error over variance, error and stated 1-sigma (rms)\n";
   std::string quantity;
   for (const OutputScore& s : scores) {
     if (s.quantity != quantity) text += (quantity = s.quantity) + "\n";
@@ -67,9 +69,20 @@ std::string to_text(const std::vector<OutputScore>& scores) {
   return text;
 }
 
-std::string to_text(const std::vector<BeliefFit>& fits) {
-  std::string text = "Lines by belief: variance = offset + slope * belief\n";
-  for (const BeliefFit& fit : fits) {
+std::string to_text(const std::vector<CueScore>& scores) {
+  std::string text = "Cues: frames used, frames rejected by the gate, mean test ratio\n";
+  std::string cue;
+  for (const CueScore& s : scores) {
+    if (s.cue != cue) text += (cue = s.cue) + "\n";
+    text += format("  %-20s %5d %5d  %8.4f\n", s.drive.c_str(), s.num_used, s.num_rejected,
+                   s.mean_test_ratio);
+  }
+  return text;
+}
+
+std::string to_text(const std::vector<ConfidenceFit>& fits) {
+  std::string text = "Lines: variance = offset + slope * confidence\n";
+  for (const ConfidenceFit& fit : fits) {
     text += format("  %-9s %4zu bins  offset %.4g  slope %.4g  [%.4g, %.4g]  mean %.4g\n", fit.name,
                    fit.bins.size(), fit.line.offset, fit.line.slope, fit.line.least, fit.line.most,
                    fit.line.mean);
@@ -78,8 +91,10 @@ std::string to_text(const std::vector<BeliefFit>& fits) {
 }
 
 void write_json(const FitReport& report, const std::filesystem::path& path) {
-  Json json = {
-      {"model", model_json(report.model)}, {"held_out", Json::array()}, {"outputs", Json::array()}};
+  Json json = {{"model", model_json(report.models)},
+               {"held_out", Json::array()},
+               {"outputs", Json::array()},
+               {"cues", Json::array()}};
   for (const HeldOutScore& s : report.held_out) {
     json["held_out"].push_back({{"drive", s.drive},
                                 {"target", target_name(s.target)},
@@ -92,6 +107,13 @@ void write_json(const FitReport& report, const std::filesystem::path& path) {
                                {"score", to_json(s.score)},
                                {"rms_error", s.rms_error},
                                {"mean_std", s.mean_std}});
+  }
+  for (const CueScore& s : report.cues) {
+    json["cues"].push_back({{"drive", s.drive},
+                            {"cue", s.cue},
+                            {"num_used", s.num_used},
+                            {"num_rejected", s.num_rejected},
+                            {"mean_test_ratio", s.mean_test_ratio}});
   }
   std::ofstream file(path);
   file << json.dump(2) << "\n";

@@ -26,7 +26,7 @@ bool run_log(const SampleCommand& command, const PlumbConfig& config, Sampler* s
     const GroundNode& ground = chain->ground();
     if (record.vo == nullptr || record.plane == nullptr || ground.output() == nullptr) return;
     if (from_wire(*record.vo, &vo) != nullptr) return;
-    sampler->add({&vo, ground.sight(), ground.output(), record.plane, record.ego});
+    sampler->add({&vo, ground.diagnostics(), ground.output(), record.plane, record.ego});
   });
   chain = &replay;
   Progress progress("sampling", "frames", reader.file_bytes());
@@ -72,7 +72,7 @@ int run_sample_command(const SampleCommand& command) {
   }
   PlumbConfig config;
   load_config(command.config, &config);
-  samples.algorithm = config.ground.mode == "paper" ? "paper" : config.ground.covariance;
+  samples.algorithm = config.ground_mode == "paper" ? "paper" : config.ground.covariance;
   const TruthTrack truth(command.log, command.planes);
   Sampler sampler(&truth, config.ground.camera_height_m);
   catch_stop_signals();

@@ -1,4 +1,5 @@
-/// plumb-train sample: one log with truth -> one file of samples. The map step; any number may run at once.
+/// plumb-train sample: one log with truth -> one file of samples. The map step; any number may run
+/// at once.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,7 +1,7 @@
-/// Files of samples: one drive each, text, complete or not there.
+/// Files of samples: text, one drive in each; a file exists only when it is complete.
 ///
-/// Line 1 says what it is ("# plumb-train samples, version 2, drive NAME, model ID"), line 2 names the columns, then one
-/// row per frame, and "# end N" with the number of rows. A file appears under its name when it is complete.
+/// Line 1 says what it is ("# plumb-train samples, version 3, drive NAME, algorithm ID"), line 2
+/// names the columns. One row for each frame follows, then "# end N" with the number of rows.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace plumb {
 
-inline constexpr int kSamplesVersion = 2;
+inline constexpr int kSamplesVersion = 3;
 
 struct DriveSamples {
   std::string drive;      ///< no commas or blanks
@@ -26,7 +26,8 @@ void write_samples(const DriveSamples& samples, const std::filesystem::path& pat
 /// Throws InputError with file and line for anything but a complete file of this version.
 [[nodiscard]] DriveSamples read_samples(const std::filesystem::path& path);
 
-/// Reads several. Throws InputError also when two hold the same drive, or their algorithms differ.
+/// Reads several files. Throws InputError also when two hold the same drive, or when their
+/// algorithms differ.
 [[nodiscard]] std::vector<DriveSamples> read_all_samples(
     const std::vector<std::filesystem::path>& paths);
 

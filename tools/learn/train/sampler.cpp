@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/ground/filter/plane_filter.hpp"
+#include "modules/ground/types/plane_state.hpp"
 #include "tools/learn/train/cue_errors.hpp"
 #include "tools/support/statistics.hpp"
 
 namespace plumb {
 namespace {
 
-// Images over which VO's unit is compared with the truth: long against the truth's jitter, short against VO's drift.
+// Images over which VO's unit is compared with the truth: long against the truth's jitter, short
+// against VO's drift.
 constexpr std::int64_t kChordFrames = 10;
 constexpr double kShortestChord_m = 1.0;
 
@@ -26,7 +27,7 @@ const WindowPose* find_chord(const VoOutput& vo, const TruthTrack& truth) {
 
 }  // namespace
 
-/// Metres per [vo] in this frame, by the truth.
+/// Metres per [vo] in this frame, from the truth.
 struct Sampler::Reference {
   bool known = false;
   double ln_scale = 0.0;
@@ -54,10 +55,10 @@ bool Sampler::take_truth(const VoOutput& vo, Sample* sample, Reference* referenc
 }
 
 void Sampler::add(const SampledFrame& frame) {
-  const GroundSight* sight = frame.sight;
+  const CueDiagnostics* diagnostics = frame.diagnostics;
   Sample sample;
   Reference scale;
-  if (sight != nullptr && !sight->filter_started) return;
+  if (diagnostics != nullptr && !diagnostics->filter_started) return;
   if (!take_truth(*frame.vo, &sample, &scale)) return;
   sample.seq = static_cast<double>(frame.vo->seq);
   sample.time_s = 1e-6 * static_cast<double>(frame.vo->capture_us);
@@ -71,6 +72,7 @@ void Sampler::add(const SampledFrame& frame) {
     sample.true_n3 = plane->normal_cam.z();
     write_plane_output(*frame.plane, *plane, &sample);
   }
+  write_cues(frame.output->plane.cues, &sample);
   write_objects(frame.output->plane.cues[kCueObjects], plane, &sample);
   const auto motion = truth_->motion(frame.vo->prev_seq, frame.vo->seq);
   if (motion) write_motion_output(*frame.ego, *motion, &sample);
@@ -78,35 +80,35 @@ void Sampler::add(const SampledFrame& frame) {
     sample.out_scale_err = frame.ego->log_scale - scale.ln_scale;
     sample.out_scale_var = frame.ego->log_scale_std * frame.ego->log_scale_std;
   }
-  if (scale.known && sight != nullptr) add_cues(*sight, scale.ln_scale, plane, &sample);
-  if (scale.known && sight == nullptr) {
+  if (scale.known && diagnostics != nullptr) add_cues(*diagnostics, scale.ln_scale, plane, &sample);
+  if (scale.known && diagnostics == nullptr) {
     write_paper(frame.output->plane, std::exp(scale.ln_scale), sample.true_height_m, plane,
                 &sample);
   }
   samples_.push_back(sample);
 }
 
-void Sampler::add_cues(const GroundSight& sight, double ln_scale, const TruePlane* plane,
+void Sampler::add_cues(const CueDiagnostics& diagnostics, double ln_scale, const TruePlane* plane,
                        Sample* sample) const {
-  if (sight.searched) {
-    sample->turn_ratio = sight.context.turn_ratio;
-    sample->step_ratio = sight.context.step_ratio;
+  if (diagnostics.measurable) {
+    sample->turn_ratio = diagnostics.context.turn_ratio;
+    sample->step_ratio = diagnostics.context.step_ratio;
   }
   CueReference reference;
   reference.ln_height = std::log(sample->true_height_m) - ln_scale;
   reference.plane = plane;
-  reference.normal_cam = plane != nullptr ? plane->normal_cam : normal_of_state(sight.state);
-  if (plane == nullptr) reference.normal_cov = sight.cov.topLeftCorner<2, 2>();
-  sample->out_scale_bias_var = sight.ln_scale_bias_var;
-  sample->out_height_added_var = sight.plane_added.ln_height;
-  sample->out_pitch_added_var = sight.plane_added.pitch_rad2;
-  sample->out_roll_added_var = sight.plane_added.roll_rad2;
-  sample->out_dense_n1_square = sight.plane_context.dense_n1_square;
-  sample->out_dense_n3_square = sight.plane_context.dense_n3_square;
-  sample->out_travel_square = sight.plane_context.travel_square;
-  write_dense(sight, reference, sample);
-  write_points(sight, reference, sample);
-  write_travel(sight, reference, sample);
+  reference.normal_cam = plane != nullptr ? plane->normal_cam : normal_of_state(diagnostics.state);
+  if (plane == nullptr) reference.normal_cov = diagnostics.cov.topLeftCorner<2, 2>();
+  sample->out_scale_bias_var = diagnostics.ln_scale_bias_var;
+  sample->out_height_added_var = diagnostics.plane_added.ln_height;
+  sample->out_pitch_added_var = diagnostics.plane_added.pitch_rad2;
+  sample->out_roll_added_var = diagnostics.plane_added.roll_rad2;
+  sample->out_dense_n1_square = diagnostics.plane_context.dense_n1_square;
+  sample->out_dense_n3_square = diagnostics.plane_context.dense_n3_square;
+  sample->out_chord_square = diagnostics.plane_context.chord_square;
+  write_dense(diagnostics, reference, sample);
+  write_points(diagnostics, reference, sample);
+  write_chord(diagnostics, reference, sample);
 }
 
 std::vector<Sample> Sampler::take() {

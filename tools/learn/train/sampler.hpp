@@ -1,11 +1,11 @@
-/// Runs a log through the chain and notes, per frame, what the cues saw and how wrong they were.
+/// Turns what the chain said about each frame of a log into a sample: what the cues measured, and
+/// their errors against the truth.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "modules/ground/covariance/ground_sight.hpp"
-
+#include "modules/ground/cues/cue_diagnostics.hpp"
 #include "modules/vo/vo.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
@@ -17,7 +17,7 @@ namespace plumb {
 /// What the chain said about one image.
 struct SampledFrame {
   const VoOutput* vo = nullptr;
-  const GroundSight* sight = nullptr;  ///< null in paper mode
+  const CueDiagnostics* diagnostics = nullptr;  ///< null in paper mode
   const GroundOutput* output = nullptr;
   const ground_plane_t* plane = nullptr;
   const ego_motion_t* ego = nullptr;
@@ -25,19 +25,19 @@ struct SampledFrame {
 
 class Sampler {
  public:
-  /// `nominal_height_m` stands in for the height where there is no true plane.
+  /// `nominal_height_m` replaces the height where there is no true plane.
   Sampler(const TruthTrack* truth, double nominal_height_m);
 
-  /// Frames without truth, or before the scale is known, leave no sample.
+  /// Takes one frame. Frames without truth, or before the scale is known, give no sample.
   void add(const SampledFrame& frame);
 
-  /// All samples; from here on every truth_ln_std is known. Call once, at the end.
+  /// Returns all samples, with every truth_ln_std filled in. Call once, at the end.
   [[nodiscard]] std::vector<Sample> take();
 
  private:
   struct Reference;
   [[nodiscard]] bool take_truth(const VoOutput& vo, Sample* sample, Reference* reference);
-  void add_cues(const GroundSight& sight, double ln_scale, const TruePlane* plane,
+  void add_cues(const CueDiagnostics& diagnostics, double ln_scale, const TruePlane* plane,
                 Sample* sample) const;
 
   const TruthTrack* truth_;

@@ -5,24 +5,24 @@
 namespace plumb {
 namespace {
 
-// Without a true plane the height ahead follows the road's bend, and on drives with true planes the rest has this
-// deviation.
+// Without a true plane, the height ahead follows the road's bend. The rest of it has this standard
+// deviation on drives with true planes.
 constexpr double kBendRestStd = 0.011;
-constexpr double kLeastSlope = 2.0;  // of ln h against n3, for a height's error to tell a tilt
+constexpr double kLeastSlope = 2.0;  // of ln h against n3, for a height's error to show a tilt
 
 bool finite(double a, double b, double c) {
   return std::isfinite(a) && std::isfinite(b) && std::isfinite(c);
 }
 
-/// Variance of the true ln h that a cue is held against.
+/// Variance of the true ln h that a cue is compared with.
 double reference_var(const Sample& s, double normal_part) {
   const double road = s.has_plane > 0.5 ? 0.0 : kBendRestStd;
   return s.truth_ln_std * s.truth_ln_std + road * road + normal_part;
 }
 
-/// Without a true plane, the height ahead is the nominal one and what the road's bend adds.
+/// What the road's bend adds to the nominal height ahead, where there is no true plane.
 double bend_of(const Sample& s, const GroundModel& model) {
-  return s.has_plane > 0.5 ? 0.0 : model.bend.height_slope * s.travel_ref;
+  return s.has_plane > 0.5 ? 0.0 : model.bend.height_slope * s.chord_ref;
 }
 
 CueFeatures features(const Sample& s, double pixel_var) {
@@ -63,15 +63,15 @@ bool points_row(const Sample& s, const GroundModel& model, TargetRow* out) {
   return true;
 }
 
-/// Chords that do not overlap err independently.
-bool travel_row(const std::vector<Sample>& frames, std::size_t i, TargetRow* out) {
+/// Chords that do not overlap have independent errors.
+bool chord_row(const std::vector<Sample>& frames, std::size_t i, TargetRow* out) {
   const Sample& s = frames[i];
-  if (!(s.travel_num_frames >= 1.0)) return false;
-  const auto num = static_cast<std::size_t>(s.travel_num_frames);
-  if (i < num || frames[i - num].seq + s.travel_num_frames != s.seq) return false;
-  out->row = {std::sqrt(0.5) * (s.travel_err - frames[i - num].travel_err), 0.0, 1.0,
-              travel_features(s.turn_ratio, s.step_ratio)};
-  out->hand_var = s.travel_hand_var;
+  if (!(s.chord_num_frames >= 1.0)) return false;
+  const auto num = static_cast<std::size_t>(s.chord_num_frames);
+  if (i < num || frames[i - num].seq + s.chord_num_frames != s.seq) return false;
+  out->row = {std::sqrt(0.5) * (s.chord_err - frames[i - num].chord_err), 0.0, 1.0,
+              chord_features(s.turn_ratio, s.step_ratio)};
+  out->hand_var = s.chord_hand_var;
   return true;
 }
 
@@ -79,7 +79,7 @@ bool plane_row(Target target, const Sample& s, TargetRow* out) {
   const bool roll = target == Target::kPlaneRoll;
   const CueFeatures f =
       roll ? plane_features(s.out_dense_n1_square, 0.0, s.turn_ratio, s.step_ratio)
-           : plane_features(s.out_dense_n3_square, s.out_travel_square, s.turn_ratio, s.step_ratio);
+           : plane_features(s.out_dense_n3_square, s.out_chord_square, s.turn_ratio, s.step_ratio);
   const auto row = [&f](double error, double var, double added) {
     return VarianceRow{error, var - added, 1.0, f};
   };
@@ -96,8 +96,8 @@ bool row_of(Target target, const std::vector<Sample>& frames, std::size_t i,
   switch (target) {
     case Target::kPoints:
       return points_row(s, model, out);
-    case Target::kTravel:
-      return travel_row(frames, i, out);
+    case Target::kChord:
+      return chord_row(frames, i, out);
     case Target::kPlanePitch:
     case Target::kPlaneRoll:
     case Target::kPlaneHeight:
@@ -114,11 +114,11 @@ bool is_plane(Target target) { return target >= Target::kPlanePitch; }
 const char* target_name(Target target) {
   constexpr std::array<const char*, kTargets.size()> kNames{
       "dense_height", "dense_n1",    "dense_n3",   "points",
-      "travel",       "plane_pitch", "plane_roll", "plane_height"};
+      "chord",        "plane_pitch", "plane_roll", "plane_height"};
   return kNames[static_cast<std::size_t>(target)];
 }
 
-// The whole drive weighs 2 sqrt(n) rows: about the number of independent ones in it.
+// The whole drive has the weight of 2 sqrt(n) rows: about the number of independent ones in it.
 double drive_weight(std::size_t num) {
   return 2.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(num, 4)));
 }
@@ -143,24 +143,25 @@ std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive, const G
 
 LogVariance& model_of(Target target, GroundModel* model) {
   LogVariance* const kModels[] = {&model->dense_height, &model->dense_n1,    &model->dense_n3,
-                                  &model->points,       &model->travel,      &model->plane_pitch,
+                                  &model->points,       &model->chord,       &model->plane_pitch,
                                   &model->plane_roll,   &model->plane_height};
   return *kModels[static_cast<std::size_t>(target)];
 }
 
 const LogVariance& model_of(Target target, const GroundModel& model) {
   const LogVariance* const kModels[] = {&model.dense_height, &model.dense_n1,    &model.dense_n3,
-                                        &model.points,       &model.travel,      &model.plane_pitch,
+                                        &model.points,       &model.chord,       &model.plane_pitch,
                                         &model.plane_roll,   &model.plane_height};
   return *kModels[static_cast<std::size_t>(target)];
 }
 
-// What the set-by-hand covariances say about the same features; variances, so twice a deviation's power.
+// What the covariances set by hand say about the same features. They are variances, so that the
+// powers are twice those of standard deviations.
 SlopePrior prior_of(Target target) {
   switch (target) {
     case Target::kPoints:
       return {{0.7, 0.5, 1.5, 0.5}, {0.5, 0.5, 0.7, 0.7}};
-    case Target::kTravel:
+    case Target::kChord:
       return {{0.0, 0.0, 0.5, 0.5}, {0.0, 0.0, 0.7, 0.7}};
     case Target::kPlaneRoll:
       return {{0.5, 0.0, 0.5, 0.5}, {0.7, 0.0, 0.7, 0.7}};
@@ -174,7 +175,7 @@ SlopePrior prior_of(Target target) {
 
 VarianceBounds bounds_of(Target target) {
   if (target == Target::kDenseHeight || target == Target::kPoints) return {0.003, 0.6};
-  // A cue that sees no road at all disputes without bound; what is reported errs less than this all the same.
+  // The residual of a cue that sees no road is unbounded, but the reported error stays below this.
   if (target == Target::kPlaneHeight) return {0.0005, 0.15};
   if (is_plane(target)) return {0.0001, 0.03};
   return {0.0007, 0.17};

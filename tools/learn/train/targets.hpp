@@ -1,4 +1,5 @@
-/// What is learned: errors of the cues and of the reported plane, each with its features, taken out of samples.
+/// What is learned: errors of the cues and of the reported plane, each with its features, from
+/// samples.
 #pragma once
 
 #include <array>
@@ -14,15 +15,16 @@ enum class Target : std::size_t {
   kDenseN1,
   kDenseN3,
   kPoints,
-  kTravel,
+  kChord,
   kPlanePitch,
   kPlaneRoll,
   kPlaneHeight
 };
 inline constexpr std::array<Target, 8> kTargets{
     Target::kDenseHeight, Target::kDenseN1,    Target::kDenseN3,   Target::kPoints,
-    Target::kTravel,      Target::kPlanePitch, Target::kPlaneRoll, Target::kPlaneHeight};
-/// What is reported beside the filter's own variances. They follow from a model of the cues: samples must come from it.
+    Target::kChord,       Target::kPlanePitch, Target::kPlaneRoll, Target::kPlaneHeight};
+/// Variances that are reported on top of the filter's own. They depend on the model of the cues, so
+/// that the samples must come from a run with that model.
 inline constexpr std::array<Target, 3> kPlaneTargets{Target::kPlanePitch, Target::kPlaneRoll,
                                                      Target::kPlaneHeight};
 
@@ -31,20 +33,20 @@ inline constexpr std::array<Target, 3> kPlaneTargets{Target::kPlanePitch, Target
 
 struct TargetRow {
   VarianceRow row;
-  double hand_var = 0.0;  ///< of FloorCovariance; of the plane: nothing beside the filter
+  double hand_var = 0.0;  ///< from FixedCovariance; for the plane the filter's alone
   double seq = 0.0;
   double step_ratio = 0.0;
-  bool direct =
-      true;  ///< false: dense_n3 of a frame without a true plane, out of the height's error
+  bool direct = true;  ///< false: dense_n3 from the height's error, without a true plane
 };
 
-/// What each of a drive's `num` frames weighs: a long drive counts for more than a short one, but not in proportion, for
-/// its frames are alike.
+/// Weight of each of a drive's `num` frames. A long drive counts more than a short one, but not in
+/// proportion, because its frames are alike.
 [[nodiscard]] double drive_weight(std::size_t num);
 
-/// Rows of one drive. Of `model`, the road's bend and dense_height (already fitted) serve frames without a true plane:
-/// there the error of the height is nearly all tilt times slope. The direction of travel is held against itself a chord
-/// before: what changes over so short a way is its noise. The plane's rows come from samples of "learned" runs only.
+/// Rows of one drive. Frames without a true plane use the road's bend and dense_height (already
+/// fitted) of `model`: there the error of the height is nearly all tilt times slope. The direction
+/// of translation is compared with itself one chord before: over so short a distance only its noise
+/// changes. Rows of the plane come only from samples of "learned" runs.
 [[nodiscard]] std::vector<TargetRow> rows_of(Target target, const DriveSamples& drive,
                                              const GroundModel& model);
 

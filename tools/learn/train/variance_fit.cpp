@@ -18,7 +18,7 @@ using ParamMatrix = Eigen::Matrix<double, kNumParams, kNumParams>;
 constexpr int kIterations = 60;
 constexpr double kEnough = 1e-7;
 constexpr double kLargestStep = 1.0;
-constexpr double kClip = 9.0;    // e^2 / V beyond which a row pulls no harder: three sigma
+constexpr double kClip = 9.0;    // e^2 / V beyond which a row's influence is bounded: three sigma
 constexpr double kFixed = 1e12;  // precision of a slope that stays
 constexpr double kFreePrecision = 1e-6;
 constexpr double kSmallestVar = 1e-14;
@@ -30,7 +30,7 @@ Params features_of(const VarianceRow& row) {
   return f;
 }
 
-/// Robust start: the rows' weighted mean square, extra parts taken off.
+/// Robust start value: the rows' weighted mean square without their extra variance.
 double start_ln_var(const std::vector<VarianceRow>& rows) {
   double sum = 0.0;
   double weight = 0.0;

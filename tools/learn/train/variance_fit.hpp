@@ -1,8 +1,8 @@
-/// How the scatter of an error follows what is known in a frame: the most likely LogVariance.
+/// Fits how the variance of an error depends on features of the frame: the most likely LogVariance.
 ///
-/// Minimises over (ln_var, slopes) the sum of w (ln V + min-clipped e^2 / V) / 2, V = exp(ln_var + slopes . f) + extra,
-/// plus a prior that holds slopes which the data say nothing about. Slopes below zero are set to zero: a feature never
-/// makes a cue better than a usual frame.
+/// It minimises over (ln_var, slopes) the sum of w (ln V + min-clipped e^2 / V) / 2 with V =
+/// exp(ln_var + slopes . f) + extra, plus a prior for slopes that the data do not determine. Slopes
+/// below zero are set to zero: a feature never makes a cue better than in a usual frame.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,12 @@ namespace plumb {
 
 struct VarianceRow {
   double error = 0.0;
-  double extra_var = 0.0;  ///< known part that is not the cue's: noise of what it was held against
+  double extra_var = 0.0;  ///< known part that is not the cue's: noise of the reference
   double weight = 1.0;
   CueFeatures features{};
 };
 
-/// What slopes are taken to be before the data speak; 1-sigma 0: the slope stays there.
+/// Prior of the slopes; a slope whose 1-sigma is 0 stays at its mean.
 struct SlopePrior {
   CueFeatures mean{};
   CueFeatures std{};
@@ -33,14 +33,14 @@ struct VarianceBounds {
 [[nodiscard]] LogVariance fit_log_variance(const std::vector<VarianceRow>& rows,
                                            const SlopePrior& prior, const VarianceBounds& bounds);
 
-/// Mean over rows of e^2 / V, and of the Gaussian log-likelihood.
+/// Means over rows of e^2 / V (nees) and of the Gaussian log-likelihood.
 struct VarianceScore {
   int num = 0;
   double nees = 0.0;
   double log_likelihood = 0.0;
 };
 
-/// Sums up (error, variance) pairs.
+/// Accumulates (error, variance) pairs.
 class ScoreSum {
  public:
   void add(double error, double var);

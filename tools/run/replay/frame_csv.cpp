@@ -1,6 +1,8 @@
 #include "tools/run/replay/frame_csv.hpp"
 
 #include "modules/datasets/text.hpp"
+#include "modules/ground/types/cue_table.hpp"
+#include "modules/ground/types/ground_types.hpp"
 #include "tools/run/replay/csv_row.hpp"
 #include "tools/run/replay/names.hpp"
 
@@ -23,9 +25,52 @@ void add_vo(const vo_motion_t& vo, bool holds, CsvRow* row) {
   for (int i = 0; i < 3; ++i) row->add(format("vo_t_%s", axes[i]), vo.t_prev_cam[i], holds);
 }
 
+// Cues whose columns stand among those of the plane. Columns never move, so those of other cues
+// follow at the end of the row.
+constexpr std::size_t kNumFirstCues = 3;
+
+bool plane_is_valid(const ground_plane_t& plane, bool answered) {
+  return answered &&
+         (plane.status == ground_plane_t::STATUS_OK || plane.status == ground_plane_t::STATUS_HELD);
+}
+
+const ground_cue_t& cue_of(const ground_plane_t& plane, std::size_t i) {
+  static const ground_cue_t kNoCue = [] {
+    ground_cue_t cue{};
+    cue.status = static_cast<std::int8_t>(CueStatus::kAbsent);
+    return cue;
+  }();
+  return i < plane.cues.size() ? plane.cues[i] : kNoCue;
+}
+
+void add_cue(const ground_plane_t& plane, std::size_t i, bool answered, CsvRow* row) {
+  const ground_cue_t& cue = cue_of(plane, i);
+  const std::string prefix = std::string(kCueTable[i].name) + "_";
+  row->add(prefix + "status", answered ? cue_status_name(cue.status) : "");
+  const bool seen =
+      plane_is_valid(plane, answered) && cue.status != static_cast<std::int8_t>(CueStatus::kAbsent);
+  row->add(prefix + "height_vo", cue.height, seen);
+  row->add(prefix + "n1", cue.n1, seen);
+  row->add(prefix + "n3", cue.n3, seen);
+  row->add(prefix + "height_std_vo", deviation(cue.height_var), seen);
+  row->add(prefix + "n1_std", deviation(cue.n1_var), seen);
+  row->add(prefix + "n3_std", deviation(cue.n3_var), seen);
+  row->add(prefix + "quality", cue.quality, seen);
+}
+
+void add_innovation(const ground_plane_t& plane, std::size_t i, bool answered, CsvRow* row) {
+  const ground_cue_t& cue = cue_of(plane, i);
+  const std::string prefix = std::string(kCueTable[i].name) + "_";
+  const bool seen =
+      plane_is_valid(plane, answered) && cue.status != static_cast<std::int8_t>(CueStatus::kAbsent);
+  row->add(prefix + "innovation_n1", cue.innovation[0], seen);
+  row->add(prefix + "innovation_n3", cue.innovation[1], seen);
+  row->add(prefix + "innovation_ln_height", cue.innovation[2], seen);
+  row->add(prefix + "test_ratio", cue.test_ratio, seen);
+}
+
 void add_plane(const ground_plane_t& plane, bool answered, CsvRow* row) {
-  const bool holds = answered && (plane.status == ground_plane_t::STATUS_OK ||
-                                  plane.status == ground_plane_t::STATUS_HELD);
+  const bool holds = plane_is_valid(plane, answered);
   row->add("plane_status", answered ? plane_status_name(plane.status) : "");
   row->add("plane_reason", answered ? plane_reason_name(plane.reason) : "");
   for (int i = 0; i < 3; ++i) row->add(format("n%d", i + 1), plane.normal_cam[i], holds);
@@ -35,20 +80,13 @@ void add_plane(const ground_plane_t& plane, bool answered, CsvRow* row) {
   row->add("height_std_m", plane.height_m * deviation(plane.cov[2][2]), holds);
   row->add("pitch_std_rad", deviation(plane.cov[0][0]), holds);
   row->add("roll_std_rad", deviation(plane.cov[1][1]), holds);
-  const char* names[] = {"dense", "points", "objects"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const ground_cue_t& cue = plane.cues[i];
-    const std::string prefix = std::string(names[i]) + "_";
-    row->add(prefix + "status", answered ? cue_status_name(cue.status) : "");
-    const bool seen = holds && cue.status != 1;
-    row->add(prefix + "height_vo", cue.height, seen);
-    row->add(prefix + "n1", cue.n1, seen);
-    row->add(prefix + "n3", cue.n3, seen);
-    row->add(prefix + "height_std_vo", deviation(cue.height_var), seen);
-    row->add(prefix + "n1_std", deviation(cue.n1_var), seen);
-    row->add(prefix + "n3_std", deviation(cue.n3_var), seen);
-    row->add(prefix + "quality", cue.quality, seen);
-  }
+  for (std::size_t i = 0; i < kNumFirstCues; ++i) add_cue(plane, i, answered, row);
+}
+
+/// Columns that came later, at the end of the row.
+void add_later_columns(const ground_plane_t& plane, bool answered, CsvRow* row) {
+  for (std::size_t i = kNumFirstCues; i < kNumCues; ++i) add_cue(plane, i, answered, row);
+  for (std::size_t i = 0; i < kNumCues; ++i) add_innovation(plane, i, answered, row);
 }
 
 void add_ego(const ego_motion_t& ego, bool answered, CsvRow* row) {
@@ -103,9 +141,11 @@ std::string build(const FrameRecord& record, bool with_times, bool names_only) {
   row.add("utime", record.capture_us);
   row.add("refused", record.refused);
   add_vo(record.vo != nullptr ? *record.vo : kNoMotion, record.vo != nullptr, &row);
-  add_plane(record.plane != nullptr ? *record.plane : kNoPlane, record.plane != nullptr, &row);
+  const ground_plane_t& plane = record.plane != nullptr ? *record.plane : kNoPlane;
+  add_plane(plane, record.plane != nullptr, &row);
   add_ego(record.ego != nullptr ? *record.ego : kNoEgo, record.ego != nullptr, &row);
   if (with_times) add_times(record, &row);
+  add_later_columns(plane, record.plane != nullptr, &row);
   return row.text();
 }
 

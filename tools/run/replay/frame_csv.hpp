@@ -1,8 +1,9 @@
-/// One line of text per image: everything the chain said about it.
+/// One line of text for each image: everything the chain said about it.
 ///
-/// Cells that do not hold (the status says why) are empty. Numbers have as many digits as it takes
-/// to read back the same bits, so two runs can be compared as text. Columns with stage times come
-/// last and only on request: they are the only ones that differ from run to run.
+/// Cells whose values are not valid are empty; the status says why. Numbers have as many digits as
+/// it takes to read back the same bits, so that two runs can be compared as text. Columns with
+/// stage times come only on request: they alone differ from run to run. Columns keep their names
+/// and places; new ones are appended at the end.
 #pragma once
 
 #include <string>
