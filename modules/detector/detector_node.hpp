@@ -15,7 +15,7 @@
 
 #include "modules/camera/image_wire.hpp"
 #include "modules/detections/detections_wire.hpp"
-#include "modules/detector/network.hpp"
+#include "modules/detector/network_source.hpp"
 
 namespace plumb {
 

@@ -1,4 +1,5 @@
 // The signals of the ground plane, out of GROUND_PLANE.
+#include <algorithm>
 #include <cmath>
 
 #include "modules/can/signals/rows.hpp"
@@ -12,10 +13,13 @@ namespace {
 
 using Plane = ground_plane_t;
 
+// The signal has four bits, and 15 stands for "not available".
+constexpr int kNumCueBits = 3;
+
 /// One bit for each cue that entered the plane.
 int cues_used(const Plane& m) {
   int bits = 0;
-  for (int i = 0; i < m.num_cues; ++i) {
+  for (int i = 0; i < std::min<int>(m.num_cues, kNumCueBits); ++i) {
     if (m.cues[i].status == ground_cue_t::STATUS_USED) bits += 1 << i;
   }
   return bits;

@@ -1,4 +1,4 @@
-#include "modules/detector/network.hpp"
+#include "modules/detector/network_source.hpp"
 
 #include <algorithm>
 #include <charconv>
