@@ -1,10 +1,11 @@
-/// Command line -> a rendered drive in a folder
+/// plumb-synth: renders a drive with exact truth into a folder.
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "tools/support/progress.hpp"
 #include "tools/support/tool_main.hpp"
 #include "tools/synth/options.hpp"
 #include "tools/synth/stats.hpp"
@@ -31,19 +32,20 @@ int print_stats(const std::vector<std::string>& folders) {
 
 int render(plumb::synth::Options& options) {
   plumb::synth::complete(options);
+  plumb::synth::refuse_overwriting(options.config);
   const plumb::synth::Studio studio(options.config);
   plumb::synth::prepare_folder(options.config.out, options.force);
   const int frames = studio.num_frames();
+  plumb::Progress bar("rendering", "frames", frames);
   const auto progress = [&](int done) {
-    if (!options.quiet) std::fprintf(stderr, "\rplumb-synth: frame %d of %d", done, frames);
+    if (!options.quiet) bar.update(done, done);
   };
   const plumb::synth::WriteResult result =
       plumb::synth::write_drive(studio, options.threads, g_stop, progress);
-  if (!options.quiet) {
-    std::fprintf(stderr, "\rplumb-synth: %d frames in %.1f s (%.1f per second) in %s\n",
-                 result.frames, result.seconds, result.frames / result.seconds,
-                 options.config.out.c_str());
-  }
+  if (options.quiet) return 0;
+  bar.finish(result.frames == frames);
+  std::printf("%s: %d frames in %.1f s, %.1f per second\n", options.config.out.c_str(),
+              result.frames, result.seconds, result.frames / result.seconds);
   return 0;
 }
 

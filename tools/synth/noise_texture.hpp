@@ -10,7 +10,7 @@
 
 namespace plumb::synth {
 
-/// What one pixel covers on a surface, in texture axes: a parallelogram of length |axis| and width
+/// The footprint of a pixel on a surface in texture axes: a parallelogram of length |axis| and width
 /// `minor_m`.
 struct Footprint {
   double axis_x_m = 0.0;

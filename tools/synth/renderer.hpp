@@ -98,7 +98,7 @@ class FrameRenderer {
   int tiles_x_;
   int tiles_y_;
   double time_s_ = 0.0;
-  Eigen::Vector3d smear_ = Eigen::Vector3d::Zero();  ///< [m] way of the eye during the exposure
+  Eigen::Vector3d smear_ = Eigen::Vector3d::Zero();  ///< [m] motion of the eye during the exposure
   std::vector<Primitive> solids_;
   std::vector<Primitive> moving_;
   std::vector<ObjectPose> moving_objects_;

@@ -19,7 +19,7 @@ struct Patch {
   Eigen::Vector3d view;   ///< unit, from the eye to the point
   double width_m = 0.01;  ///< one pixel across the view
   Eigen::Vector3d smear =
-      Eigen::Vector3d::Zero();  ///< [m] way of the surface past the eye during the exposure
+      Eigen::Vector3d::Zero();  ///< [m] motion of the surface past the eye during the exposure
 };
 
 struct Reflectance {

@@ -24,7 +24,10 @@ struct WriteResult {
 WriteResult write_drive(const Studio& studio, int num_threads, const std::atomic<bool>& stop,
                         const std::function<void(int)>& progress);
 
-/// Throws UsageError when `folder` holds something and `force` is not set; creates it otherwise.
+/// Throws InputError when the drive's files would overwrite the pose file that it follows.
+void refuse_overwriting(const SynthConfig& config);
+
+/// Throws UsageError when `folder` is not empty and `force` is not set; creates it otherwise.
 /// With `force`, only files of a former drive are removed.
 void prepare_folder(const std::filesystem::path& folder, bool force);
 

@@ -1,4 +1,4 @@
-/// Runs a faulty drive through the chain and holds what it marks as valid against the truth.
+/// Runs a faulty drive through the chain and compares the results marked as valid with the truth.
 ///
 /// A result is wrong when its speed is off by more than three stated standard deviations and by more than 0.3 m/s.
 #pragma once

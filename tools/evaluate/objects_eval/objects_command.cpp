@@ -10,8 +10,11 @@
 
 #include "core/input_error.hpp"
 #include "modules/chain/plumb_config.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/evaluate/objects_eval/object_depth.hpp"
+#include "tools/support/report_options.hpp"
 
 namespace plumb {
 namespace {
@@ -71,15 +74,20 @@ CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command) {
   objects->add_option("--sequence", command->sequences, "only this one; may be repeated")
       ->type_name("NNNN");
   objects->add_option("--camera-height", command->camera_height_m, "above the road [m]")
-      ->check(CLI::Range(0.3, 4.0))
+      ->check(within(0.3, 4.0))
       ->capture_default_str();
   objects->add_option("--config", command->config, "settings, keys detections.* and objects.*")
       ->type_name("FILE");
-  objects->add_option("--json", command->json, "write the figures to FILE")->type_name("FILE");
+  add_json_option(objects, &command->json);
   return objects;
 }
 
 int run_objects_command(const ObjectsCommand& command) {
+  OverwriteGuard()
+      .reads("--config", command.config)
+      .reads_folder("ROOT", command.root, {".txt"})
+      .writes("--json", command.json)
+      .check();
   PlumbConfig config;
   load_config(command.config, &config);
   ObjectDepthOptions options;

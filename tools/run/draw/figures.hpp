@@ -1,4 +1,4 @@
-/// Rows of plumb-replay's CSV as what is drawn onto a frame.
+/// Reads plumb-replay's tables as figures to draw onto frames.
 #pragma once
 
 #include <cstdint>
