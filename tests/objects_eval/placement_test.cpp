@@ -59,6 +59,18 @@ TEST(Placement, FindsTheErrorsThatWereMade) {
   EXPECT_GT(distant.position_mean_percent, distant.depth_mean_percent) << "which leans away";
 }
 
+TEST(Placement, NeedsNoImages) {
+  PlacedDrive with_images, without(false);
+  add_two_cars(&with_images);
+  add_two_cars(&without);
+  const DrivePlacement expected = evaluate(&with_images);
+  const DrivePlacement result = evaluate(&without);
+  ASSERT_EQ(result.samples.size(), 24u);
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    EXPECT_EQ(result.samples[i].speed_m_s, expected.samples[i].speed_m_s);
+  }
+}
+
 TEST(Placement, TellsWhatStandsFromWhatMoves) {
   PlacedDrive drive;
   add_two_cars(&drive);
