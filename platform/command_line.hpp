@@ -1,6 +1,7 @@
 /// Parses the command line of every plumb-* program and says in one sentence what is wrong with it.
 ///
-/// Errors  "plumb-replay: unknown option --pose; did you mean --poses?" on stderr and exit code 2.
+/// Errors:
+///   "plumb-replay: unknown option --pose; did you mean --poses?" on stderr and exit code 2.
 #pragma once
 
 #include <CLI/App.hpp>

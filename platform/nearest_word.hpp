@@ -1,4 +1,5 @@
-/// Finds the known word that a mistyped one most likely stands for, for the end of an error message.
+/// Finds the known word that a mistyped one most likely stands for, for the end of an error
+/// message.
 #pragma once
 
 #include <cstddef>

@@ -1,23 +1,25 @@
-/// The chain in one process: everything that the live processes do with a log's messages, as fast as
-/// it goes. This is the one wiring of the modules; replay, trainer, calibration and tests use it.
+/// The chain in one process: all that the live processes do with the messages of a log, as fast as
+/// possible. This is the one wiring of the modules. Replay, trainer, calibration and tests use it.
 ///
-/// Flow     message of the log    taken by, in this order             gives
-///          CAMERA_CALIBRATION    vo, ground, objects
-///          CAMERA                ground, which keeps the image;
-///                                vo                                  VO_MOTION
-///            VO_MOTION           ground                              GROUND_PLANE, EGO_MOTION
-///            ground's output     mount                               MOUNT, about once a second
-///            GROUND_PLANE, EGO_MOTION   objects, can
-///            MOUNT               can
-///          DETECTIONS            ground, for the next images; objects       OBJECTS
-///            OBJECTS             can
-///          Other channels are ignored.
-/// Live     The nodes are those of plumb-vo, plumb-ground, plumb-objects and plumb-can, and each gets
-///          its messages in the order in which it gets them live. Results are those of the live
-///          processes bit for bit as long as no message is lost or late. Only the time stamps in the
-///          log count, never a clock. State files are neither read nor written.
-/// Errors   A message that a node refuses is counted, and the first reason is kept.
-/// Memory   Fixed after the first calibration, except for the strings of reasons.
+/// Flow:
+///   message of the log   | taken by, in this order      | which gives
+///   CAMERA_CALIBRATION   | vo, ground, objects          |
+///   CAMERA               | ground, which stores it; vo  | VO_MOTION
+///     VO_MOTION          | ground                       | GROUND_PLANE, EGO_MOTION
+///     GROUND_PLANE       | mount (ground's own output)  | MOUNT, about once a second
+///     and EGO_MOTION     | objects, can                 |
+///     MOUNT              | can                          |
+///   DETECTIONS           | ground, for later images;    |
+///                        | objects                      | OBJECTS
+///     OBJECTS            | can                          | CAN frames, on the sink
+///   Other channels are ignored.
+/// Live:
+///   The nodes are those of plumb-vo, plumb-ground, plumb-objects and plumb-can, and each of them
+///   gets its messages in the order in which it gets them live. The results are those of the live
+///   processes bit for bit as long as no message is lost or late. Only time stamps in the log
+///   count, and no clock does. State files are neither read nor written.
+/// Errors:
+///   A message that a node refuses is counted, and the first reason is kept.
 #pragma once
 
 #include <cstdint>
@@ -57,8 +59,8 @@ class Chain {
   using Sink = std::function<void(const FrameRecord&)>;
   using ObjectsSink = std::function<void(const objects_t&)>;
 
-  /// `can_sink` may be null. `sink` is called once per image, and `objects_sink`, which may be empty,
-  /// once per message on DETECTIONS that has been used.
+  /// `can_sink` may be null. `sink` is called once per image, and `objects_sink`, which may be
+  /// empty, once per message on DETECTIONS that has been used.
   Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
         ObjectsSink objects_sink = {});
 

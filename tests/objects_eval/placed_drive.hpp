@@ -1,4 +1,5 @@
-/// A drive without pictures, with labels of known places and the tables of a replay with known errors.
+/// A drive without pictures, with labels of known places and the tables of a replay with known
+/// errors.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-/// Shows the progress of a long job as a bar on stderr when that is a terminal, and nothing elsewhere.
+/// Shows the progress of a long job as a bar on stderr when that is a terminal, and nothing
+/// elsewhere.
 #pragma once
 
 #include <cstdint>

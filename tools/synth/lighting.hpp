@@ -1,6 +1,9 @@
 /// Sun, sky and haze: the light on a surface and the radiance of the sky.
 ///
-/// Frames  map. Radiance is relative (surface.hpp).
+/// Frames:
+///   map
+/// Units:
+///   Radiance is relative (surface.hpp).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,8 +1,10 @@
 /// One camera frame by ray casting: exact for distortion, rolling shutter and motion during the
 /// exposure.
 ///
-/// Frames  map; img: (0,0) is the centre of the upper left pixel.
-/// Time    a frame's time is the middle of the exposure of its middle row.
+/// Frames:
+///   map; img: (0,0) is the centre of the upper left pixel.
+/// Time:
+///   A frame's time is the middle of the exposure of its middle row.
 /// Threads FrameRenderer owns its scratch memory: one per thread. The result depends on the time
 ///         only.
 #pragma once

@@ -1,8 +1,9 @@
-/// The route of a drive: centre of the driven lane, cross-section of the road, and the distance along
-/// the route at each time.
+/// The route of a drive: centre of the driven lane, cross-section of the road, and the distance
+/// along the route at each time.
 ///
-/// Frames  map: x east, y north, z up, metres. Lateral offsets count to the left of the direction
-///         of travel.
+/// Frames:
+///   map: x east, y north, z up, metres. Lateral offsets count to the left of the direction
+///   of travel.
 #pragma once
 
 #include <Eigen/Core>

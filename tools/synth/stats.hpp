@@ -1,7 +1,10 @@
 /// Figures of how a drive looks to an estimator, for comparing rendered with real drives.
 ///
-/// Units  grey levels and pixels. Road = the part of the image within 1.65 m of the camera's
-///        vertical plane and nearer than 30 m, for a level camera 1.65 m above a plane.
+/// Units:
+///   Grey levels and pixels.
+/// Road:
+///   The part of the image within 1.65 m of the camera's vertical plane and nearer than 30 m, for a
+///   level camera 1.65 m above a plane.
 #pragma once
 
 #include <filesystem>

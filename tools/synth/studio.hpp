@@ -1,6 +1,7 @@
 /// Builds every part of a drive from the configuration, so that it can be rendered.
 ///
-/// Threads all members are read-only once constructed.
+/// Threads:
+///   All members are read-only once constructed.
 #pragma once
 
 #include "tools/synth/synth_config.hpp"

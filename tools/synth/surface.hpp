@@ -1,7 +1,9 @@
 /// What a pixel sees of a surface and how that surface answers light.
 ///
-/// Frames  map. Reflectance and radiance are relative: 1 = a white sheet facing a light of strength
-///         1.
+/// Frames:
+///   map
+/// Units:
+///   Reflectance and radiance are relative; 1 is a white sheet that faces a light of strength 1.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,8 +1,10 @@
 /// The ground: a smooth height field with the road's crown, and the distance of each place from the
 /// road.
 ///
-/// Frames  map: x east, y north, z up, metres.
-/// Rays    o + t d with d of any length; t counts in lengths of d.
+/// Frames:
+///   map: x east, y north, z up, metres.
+/// Rays:
+///   o + t d with d of any length; t counts in lengths of d.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 /// The truth of a frame: the local road plane and the labelled objects.
 ///
-/// Frames  cam: x right, y down, z forward. The plane's normal points down: n . X = h with h > 0.
+/// Frames:
+///   cam: x right, y down, z forward. The plane's normal points down: n . X = h with h > 0.
 #pragma once
 
 #include <cstdint>

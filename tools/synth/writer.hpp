@@ -1,7 +1,8 @@
 /// Renders a drive into a folder in KITTI odometry layout, with its truth.
 ///
-/// Threads frames are handed out one by one to `num_threads` workers; the files do not depend on
-///         how many.
+/// Threads:
+///   Frames are handed out one by one to `num_threads` workers. The files do not depend on their
+///   number.
 #pragma once
 
 #include <atomic>

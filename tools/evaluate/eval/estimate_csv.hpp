@@ -22,7 +22,8 @@ struct EstimatedPlane {
 };
 
 /// Columns are found by the names in the first line: seq, height_m, pitch_rad and roll_rad must be
-/// present; plane_status and the standard deviations are optional. Throws InputError with file, line and column.
+/// present; plane_status and the standard deviations are optional. Throws InputError with file,
+/// line and column.
 [[nodiscard]] std::vector<EstimatedPlane> read_estimate_csv(const std::filesystem::path& path);
 
 }  // namespace plumb

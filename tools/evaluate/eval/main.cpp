@@ -1,5 +1,5 @@
-/// plumb-eval: measures how far an estimated trajectory, estimated ground planes or placed objects are
-/// from the truth.
+/// plumb-eval: measures how far an estimated trajectory, estimated ground planes or placed objects
+/// are from the truth.
 
 #include <CLI/CLI.hpp>
 #include <iostream>

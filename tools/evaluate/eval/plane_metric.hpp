@@ -1,6 +1,7 @@
 /// Compares estimated ground planes with true ones.
 ///
-/// Units    radians and metres inside; degrees and percent in what is printed.
+/// Units:
+///   radians and metres inside; degrees and percent in what is printed.
 #pragma once
 
 #include <cstdint>

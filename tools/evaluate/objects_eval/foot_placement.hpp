@@ -1,5 +1,5 @@
-/// Places an object by the foot point of its box alone: eq. (2) for the lower middle of the box, plus
-/// half the usual length of its class.
+/// Places an object by the foot point of its box alone: eq. (2) for the lower middle of the box,
+/// plus half the usual length of its class.
 #pragma once
 
 #include "modules/detections/foot_point.hpp"

@@ -1,10 +1,12 @@
 /// Measures how far off objects are placed on KITTI tracking sequences, from boxes alone.
 ///
-/// Methods  The calibrated plane with and without the detection cue, each with the foot point alone and
-///          with plumb-objects' tracks.
-/// Metric   |Z - Z*| / Z* for the middle of the footprint, as in Song and Chandraker, CVPR 2014, section
-///          6.4. Up to Z* = 10 m an object is close. Cars and vans must be whole in the image and at
-///          most partly hidden.
+/// Methods:
+///   The calibrated plane with and without the detection cue, each with the foot point alone and
+///   with plumb-objects' tracks.
+/// Metric:
+///   |Z - Z*| / Z* for the middle of the footprint, as in Song and Chandraker, CVPR 2014, section
+///   6.4. Up to Z* = 10 m an object is close. Cars and vans must be whole in the image and at
+///   most partly hidden.
 /// Fairness A sample counts for all methods or for none. All of them know boxes, tracks and the
 ///          calibration, and neither images nor the camera's motion.
 #pragma once

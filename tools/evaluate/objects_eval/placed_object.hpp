@@ -1,6 +1,7 @@
 /// Reads the places of objects from the table of plumb-replay --objects.
 ///
-/// Frames   ground: x forward, y left, on the road under the camera, of the row's image.
+/// Frames:
+///   ground: x forward, y left, on the road under the camera, of the row's image.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,12 +1,15 @@
 /// Compares the places of objects in plumb-replay's tables with the labels of the drive.
 ///
-/// Metric   |Z - Z*| / Z* for the middle of the footprint, as in Song and Chandraker, CVPR 2014, section
-///          6.4, and the distance in space over Z*. Up to Z* = 10 m an object is close. Labels must be
-///          whole in the image and at most partly hidden.
-/// Beside   The foot point of the same box alone, on the reported plane and on the calibrated one
-///          (eq. (2)), serves for comparison.
-/// Frames   cam: the camera of the images with the boxes (P2 of a KITTI drive); ground: on the road
-///          under the camera, on the plane that the chain reported for the image.
+/// Metric:
+///   |Z - Z*| / Z* for the middle of the footprint, as in Song and Chandraker, CVPR 2014, section
+///   6.4, and the distance in space over Z*. Up to Z* = 10 m an object is close. Labels must be
+///   whole in the image and at most partly hidden.
+/// Beside:
+///   The foot point of the same box alone, on the reported plane and on the calibrated one
+///   (eq. (2)), serves for comparison.
+/// Frames:
+///   cam: the camera of the images with the boxes (P2 of a KITTI drive); ground: on the road
+///   under the camera, on the plane that the chain reported for the image.
 #pragma once
 
 #include <filesystem>
@@ -48,8 +51,8 @@ struct DrivePlacement {
   std::vector<PlacementSample> samples;
 };
 
-/// `drive` is a folder with calib.txt, label_02.txt, images and, to tell what moves, poses. A folder
-/// without images has one row per frame in times.txt and poses.txt. plumb-replay wrote
+/// `drive` is a folder with calib.txt, label_02.txt, images and, to tell what moves, poses. A
+/// folder without images has one row per frame in times.txt and poses.txt. plumb-replay wrote
 /// `frames_csv` and `objects_csv` for the drive with --csv and --objects. Throws InputError.
 [[nodiscard]] DrivePlacement evaluate_placement(const std::filesystem::path& drive,
                                                 const std::filesystem::path& frames_csv,

@@ -20,7 +20,8 @@ struct PlacementCommand {
 /// Adds the subcommand; its options fill `command`.
 CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command);
 
-/// Prints the table, writes JSON and plots. Returns the exit code; throws InputError and ConfigError.
+/// Prints the table, writes JSON and plots. Returns the exit code; throws InputError and
+/// ConfigError.
 int run_placement_command(const PlacementCommand& command);
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 /// Reports an evaluation of placed objects as figures, a table, JSON and pictures.
 ///
-/// Units    metres inside; percent of the true depth in what is printed.
+/// Units:
+///   metres inside; percent of the true depth in what is printed.
 #pragma once
 
 #include <cstddef>

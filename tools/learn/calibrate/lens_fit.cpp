@@ -140,8 +140,8 @@ std::vector<double> search_least(Objective* objective,
   return x;
 }
 
-/// The objective around a point, c + g x + x^T H x / 2, fitted by least squares to a grid of runs for
-/// every block and for their mean.
+/// The objective around a point, c + g x + x^T H x / 2, fitted by least squares to a grid of runs
+/// for every block and for their mean.
 struct Surface {
   Eigen::MatrixXd block_gradients;  ///< one row per block, at the point
   std::vector<Eigen::MatrixXd> block_hessians;

@@ -1,14 +1,17 @@
 /// Fits lens terms to drives by minimising the residuals of visual odometry.
 ///
-/// Objective  The mean residual of VO's points over whole runs is least for the right lens. Turns make
-///            it observable, because each point then crosses the image.
-/// Method     BOBYQA (Powell 2009, from NLopt) comes close to the minimum. A quadratic surface through
-///            a grid of runs then gives the minimum itself; it averages out the effect that the choice
-///            of features has on single runs.
-/// Variance   Standard deviations come from the sandwich H^-1 G H^-1 with the curvature H of the
-///            surface and the scatter G of its gradient over blocks of images.
-/// A parameter whose standard deviation is too large keeps its stated value, and the others are fitted
-/// again. The worst parameter is dropped first.
+/// Objective:
+///   The mean residual of VO's points over whole runs is least for the right lens. Turns make
+///   it observable, because each point then crosses the image.
+/// Method:
+///   BOBYQA (Powell 2009, from NLopt) comes close to the minimum. A quadratic surface through
+///   a grid of runs then gives the minimum itself; it averages out the effect that the choice
+///   of features has on single runs.
+/// Variance:
+///   Standard deviations come from the sandwich H^-1 G H^-1 with the curvature H of the
+///   surface and the scatter G of its gradient over blocks of images.
+/// A parameter whose standard deviation is too large keeps its stated value, and the others are
+/// fitted again. The worst parameter is dropped first.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-/// plumb-calibrate: finds lens terms and mount from ordinary drives with turns, and reports what could
-/// not be observed.
+/// plumb-calibrate: finds lens terms and mount from ordinary drives with turns, and reports what
+/// could not be observed.
 
 #include <CLI/CLI.hpp>
 #include <iostream>

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "modules/ground/ground.hpp"
 #include "modules/chain/model_file_source.hpp"
+#include "modules/ground/ground.hpp"
 #include "modules/vo/vo.hpp"
 #include "tools/learn/calibrate/lens_fit.hpp"
 #include "tools/learn/train/truth_track.hpp"

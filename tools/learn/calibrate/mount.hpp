@@ -1,10 +1,12 @@
 /// Finds how the camera sits on its vehicle by running the whole chain over drives.
 ///
-/// Angles  Medians over frames. Yaw is measured against the direction of travel on straight
-///         stretches and is positive when the camera looks to the left of it. Pitch (positive nose
-///         down) and roll (positive right side down) are measured against the road.
-/// Height  The height at which the chain's path gets the true length. It needs a metric reference:
-///         true poses in the log.
+/// Angles:
+///   Medians over frames. Yaw is measured against the direction of travel on straight
+///   stretches and is positive when the camera looks to the left of it. Pitch (positive nose
+///   down) and roll (positive right side down) are measured against the road.
+/// Height:
+///   The height at which the chain's path gets the true length. It needs a metric reference:
+///   true poses in the log.
 #pragma once
 
 #include <cstdint>

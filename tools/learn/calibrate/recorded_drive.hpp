@@ -1,6 +1,7 @@
 /// The decoded images of one log, kept in memory for repeated runs of the estimators.
 ///
-/// Memory  0.5 MB per grey image of 1242 x 375 pixels.
+/// Memory:
+///   0.5 MB per grey image of 1242 x 375 pixels.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 /// Draws the results for a frame onto it: road grid, horizon, objects, figures and path.
 ///
-/// Frames  cam: x right, y down, z forward. The plane's normal points DOWN: n . X = h.
+/// Frames:
+///   cam: x right, y down, z forward. The plane's normal points DOWN: n . X = h.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,8 @@
 /// Converts a KITTI sequence to an LCM log.
 ///
-/// The log has CAMERA_CALIBRATION at the beginning and once a second, and per frame GROUND_TRUTH where
-/// there is truth, CAMERA, and DETECTIONS where there are boxes. Events carry the true capture times.
+/// The log has CAMERA_CALIBRATION at the beginning and once a second, and per frame GROUND_TRUTH
+/// where there is truth, CAMERA, and DETECTIONS where there are boxes. Events carry the true
+/// capture times.
 #pragma once
 
 #include <cstdint>

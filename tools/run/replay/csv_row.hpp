@@ -1,4 +1,5 @@
-/// Builds one row of a CSV file, or its header, which lists the names of the cells in the same order.
+/// Builds one row of a CSV file, or its header, which lists the names of the cells in the same
+/// order.
 #pragma once
 
 #include <algorithm>

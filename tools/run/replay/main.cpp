@@ -1,5 +1,5 @@
-/// plumb-replay: runs a log through vo, ground, objects and can in one process and writes poses, a table of
-/// frames, a table of objects and a CAN trace.
+/// plumb-replay: runs a log through vo, ground, objects and can in one process and writes poses, a
+/// table of frames, a table of objects and a CAN trace.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

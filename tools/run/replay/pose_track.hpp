@@ -8,8 +8,8 @@
 
 namespace plumb {
 
-/// One row per image. An image without a valid pose repeats the row before it. Before the first valid
-/// pose, rows are the identity.
+/// One row per image. An image without a valid pose repeats the row before it. Before the first
+/// valid pose, rows are the identity.
 class PoseTrack {
  public:
   /// `ego` may be null. Returns the row.
