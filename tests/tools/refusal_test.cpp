@@ -5,15 +5,12 @@
 
 #include <map>
 
-#include "tests/support/expect_throw.hpp"
 #include "tests/support/run_program.hpp"
 
 namespace plumb {
 namespace {
 
 namespace fs = std::filesystem;
-using test::expect_contains;
-using test::run_program;
 
 struct Call {
   const char* program;
@@ -49,10 +46,7 @@ class OverwriteRefusal : public ::testing::Test {
   }
   void expect_refused(const Call& call) const {
     const auto before = files();
-    const auto result = run_program(folder_, call.program, in_folder(call.arguments));
-    EXPECT_EQ(result.exit_code, 2) << call.program << " " << call.arguments;
-    expect_contains(result.err, call.sentence);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    test::expect_refused(folder_, call.program, in_folder(call.arguments), call.sentence);
     EXPECT_TRUE(files() == before) << call.program << " " << call.arguments;
   }
   /// Puts the folder's path in place of every @.
@@ -149,10 +143,7 @@ TEST(UnknownWords, AreRefusedWithTheNearestKnownOne) {
            {"plumb-vo", "--sed 3", "did you mean --seed?"},
            {"plumb-can", "--interfaces can0", "did you mean --interface?"},
            {"plumb-camera", "--kiti a", "did you mean --kitti?"}}) {
-    const auto result = run_program(folder, call.program, call.arguments);
-    EXPECT_EQ(result.exit_code, 2) << call.program << " " << call.arguments;
-    expect_contains(result.err, call.sentence);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    test::expect_refused(folder, call.program, call.arguments, call.sentence);
   }
 }
 
