@@ -50,7 +50,8 @@ TEST(Placement, FindsTheErrorsThatWereMade) {
   EXPECT_NEAR(close.depth_mean_percent, (2.0 * high - low) / 3.0, 1e-6);
   EXPECT_NEAR(close.depth_median_percent, high, 1e-6);
   EXPECT_NEAR(close.depth_bias_percent, (2.0 * high + low) / 3.0, 1e-6);
-  EXPECT_NEAR(close.depth_nees, (2.0 * 1.0 + 4.0) / 3.0, 1e-6) << "one and two deviations off";
+  EXPECT_NEAR(close.depth_nees, (2.0 * 1.0 + 4.0) / 3.0, 1e-6)
+      << "one and two standard deviations off";
   EXPECT_NEAR(close.position_nees, 0.5 * close.depth_nees, 1e-6) << "no error to the side";
 
   const auto distant = placement_figures(result.samples, Range::kDistant, Motion::kAny);

@@ -57,11 +57,12 @@ int main(int argc, char** argv) {
   CLI::App app{"Renders drives with exact truth, in KITTI odometry layout", "plumb-synth"};
   plumb::synth::Options options;
   bool list = false;
-  app.add_flag("--list-routes", list, "name the built-in routes and exit");
+  app.add_flag("--list-routes", list, "list the built-in routes, then exit");
   plumb::synth::declare(app, options);
   std::vector<std::string> folders;
   CLI::App* stats = app.add_subcommand(
-      "stats", "how drives look to an estimator: a table for comparing rendered with real ones");
+      "stats",
+      "print a table of how drives look to an estimator, to compare rendered with real ones");
   stats->add_option("DIR", folders, "folders in KITTI odometry layout")->required();
   return plumb::tool_main(&app, argc, argv, [&] {
     if (list) return list_routes();

@@ -139,7 +139,7 @@ CLI::App* add_options(CLI::App* app, Arguments* arguments) {
 
 int main(int argc, char** argv) {
   plumb::Arguments arguments;
-  CLI::App app("Error of estimated trajectories, ground planes and objects against the truth",
+  CLI::App app("Measures errors of trajectories, ground planes and objects against the truth",
                "plumb-eval");
   const CLI::App* plane = plumb::add_options(&app, &arguments);
   plumb::ObjectsCommand objects_command;

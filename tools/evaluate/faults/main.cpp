@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
   plumb::Arguments arguments;
   std::vector<std::string> names;
   for (const plumb::Fault& fault : plumb::all_faults()) names.push_back(fault.name);
-  CLI::App app("Faults put into recorded drives, and what the chain makes of them", "plumb-faults");
+  CLI::App app("Puts faults into recorded drives and reports what the chain makes of them",
+               "plumb-faults");
   app.footer(plumb::kFooter);
   app.add_option("LOG", arguments.logs, "logs with true poses")->required();
   app.add_option("--fault", arguments.faults, "only these rows of the table")

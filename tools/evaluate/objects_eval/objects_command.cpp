@@ -67,11 +67,13 @@ void write_json(const ObjectsCommand& command, const std::vector<SequenceDepth>&
 
 CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command) {
   CLI::App* objects = app->add_subcommand(
-      "objects", "how far off objects are placed on KITTI tracking sequences, from boxes alone");
+      "objects",
+      "measure how far off objects are placed on KITTI tracking sequences, from boxes alone");
   objects->add_option("ROOT", command->root, "folder with calib/ and label_02/")->required();
   objects->add_option("--boxes", command->boxes, "folder under ROOT with the boxes to use")
       ->capture_default_str();
-  objects->add_option("--sequence", command->sequences, "only this one; may be repeated")
+  objects
+      ->add_option("--sequence", command->sequences, "evaluate only this sequence; may be repeated")
       ->type_name("NNNN");
   objects->add_option("--camera-height", command->camera_height_m, "above the road [m]")
       ->check(within(0.3, 4.0))

@@ -55,8 +55,9 @@ void refuse_overwriting(const PlacementCommand& command) {
 }  // namespace
 
 CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command) {
-  CLI::App* placed = app->add_subcommand(
-      "placed", "how far off the whole chain placed objects: plumb-replay's tables against labels");
+  CLI::App* placed = app->add_subcommand("placed",
+                                         "measure how far off the whole chain placed objects: "
+                                         "compare plumb-replay's tables with labels");
   placed
       ->add_option(
           "DRIVE FRAMES OBJECTS", command->files,
@@ -66,7 +67,7 @@ CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command) {
       ->required();
   placed->add_option("--boxes", command->boxes, "file in DRIVE with the boxes that were replayed")
       ->capture_default_str();
-  placed->add_option("--classes", command->classes, "labels to take: car, van, truck, bus")
+  placed->add_option("--classes", command->classes, "classes of the labels to take")
       ->delimiter(',')
       ->check(one_of({"car", "van", "truck", "bus"}))
       ->capture_default_str();

@@ -137,7 +137,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   plumb::Options options;
-  CLI::App app("Road grid, horizon, objects and figures drawn onto the frames of a log",
+  CLI::App app("Draws road grid, horizon, objects and figures onto the frames of a log",
                "plumb-draw");
   app.add_option("LOG", options.log, "LCM log with the images")->required();
   app.add_option("CSV", options.csv, "what plumb-replay --csv wrote for it")->required();
@@ -145,7 +145,8 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "folder for the pictures")->required();
   app.add_option("--frames", options.frames, "sequence numbers to draw [spread over the drive]")
       ->delimiter(',');
-  app.add_option("--num-pictures", options.num_pictures, "how many when --frames is not given")
+  app.add_option("--num-pictures", options.num_pictures,
+                 "number of pictures when --frames is not given")
       ->check(plumb::within(1, 1000))
       ->capture_default_str();
   app.add_option("--video", options.video, "also draw every frame into this AVI file");

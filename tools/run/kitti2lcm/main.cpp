@@ -33,7 +33,7 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
       ->check(plumb::within(0, 3))
       ->capture_default_str();
   app->add_option("--compress", *compress,
-                  "none: pixels as they are; jpeg: quality 95, about a quarter of the size")
+                  "none: plain pixels; jpeg: quality 95, about a quarter of the size")
       ->check(plumb::one_of({"none", "jpeg"}))
       ->capture_default_str();
   app->add_option("--poses", sequence->poses,
@@ -46,15 +46,17 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
          "--residual-k1", sequence->residual_k1,
          "radial term of r^2 left in the rectified images [calib.txt's residual_k1, else 0.0256]")
       ->check(plumb::within(-0.2, 0.2));
-  app->add_option("--residual-k2", sequence->residual_k2,
-                  "the same, of r^4 [calib.txt's residual_k2, else -0.0076; 0 beside a stated k1]")
+  app->add_option(
+         "--residual-k2", sequence->residual_k2,
+         "radial term of r^4 [calib.txt's residual_k2, else -0.0076; 0 beside a stated k1]")
       ->check(plumb::within(-0.2, 0.2));
   app->add_option(
          "--camera-height", sequence->camera_height_m,
          "optical centre above the road [calib.txt's camera_height_m, else the configuration's]")
       ->check(plumb::within(0.3, 4.0));
-  app->add_option("--readout", sequence->readout_s,
-                  "rolling shutter, first row to last, s [calib.txt's readout_s, else 0]")
+  app->add_option(
+         "--readout", sequence->readout_s,
+         "readout time of a rolling shutter, first row to last, s [calib.txt's readout_s, else 0]")
       ->check(plumb::within(0.0, 0.1));
   app->add_option("--start", sequence->start, "first frame number")->check(plumb::at_least(0));
   app->add_option("--end", sequence->end, "last frame number")->check(plumb::at_least(0));
