@@ -26,13 +26,17 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")  # line numbers only: -g makes the build a 
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# plumb_program(name sources... LIBS libs...) adds a program to bin/ and to the installation. Its
-# main source is compiled with -O1, because optimising CLI11 for speed would double the compile
-# time.
+# plumb_program(name sources... LIBS libs...) adds a program to bin/; it is installed when it has been
+# built. Its main source is compiled with -O1, because optimising CLI11 for speed would double the
+# compile time.
 function(plumb_program name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE plumb_strict ${ARG_LIBS})
   set_source_files_properties(${ARG_UNPARSED_ARGUMENTS} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # tools/demo builds some of the programs. What has been built is installed, the rest is named.
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
+  install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${name}>\")
+  message(STATUS \"Left out, because it has not been built: ${name}\")
+endif()")
 endfunction()

@@ -13,6 +13,8 @@
 #include <set>
 #include <sstream>
 
+#include "platform/nearest_word.hpp"
+
 namespace plumb {
 namespace {
 
@@ -22,21 +24,6 @@ std::string render(const toml::node& node) {
   std::ostringstream out;
   node.visit([&out](const auto& value) { out << value; });
   return out.str();
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row[b.size()];
 }
 
 struct Leaf {
@@ -153,9 +140,7 @@ void ConfigFile::read(const char* key, std::string& value,
   const toml::node* node = impl_->find(key);
   if (node == nullptr) return;
   if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
-    std::string list;
-    for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
-    impl_->refuse(key, *node, "is none of " + list);
+    impl_->refuse(key, *node, "is none of " + word_list(choices) + did_you_mean(text, choices));
   }
   value = text;
 }
@@ -171,18 +156,10 @@ void ConfigFile::refuse_unread() const {
     const bool owns_keys =
         next != impl_->known.end() && next->compare(0, leaf.key.size() + 1, leaf.key + ".") == 0;
     if (impl_->known.count(leaf.key) > 0 || (leaf.is_section && owns_keys)) continue;
-    std::string nearest;
-    std::size_t best = leaf.key.size() / 3 + 1;
-    for (const std::string& key : impl_->known) {
-      const std::size_t distance = edit_distance(leaf.key, key);
-      if (distance < best) {
-        best = distance;
-        nearest = key;
-      }
-    }
+    const std::vector<std::string> keys(impl_->known.begin(), impl_->known.end());
     throw ConfigError(impl_->path + ":" + std::to_string(leaf.line) + ": " + leaf.key +
                       (leaf.is_section ? " is not a known section" : " is not a known key") +
-                      (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+                      did_you_mean(leaf.key, keys));
   }
 }
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "platform/clock.hpp"
+#include "platform/command_line.hpp"
 #include "platform/log.hpp"
-#include "platform/version.hpp"
 
 namespace plumb {
 namespace {
@@ -133,19 +133,6 @@ void Process::serve(const std::function<void()>& setup) {
       static_cast<long long>(c.num_received), static_cast<long long>(c.num_rejected),
       static_cast<long long>(c.num_dropped), static_cast<long long>(c.num_late),
       static_cast<long long>(c.num_published), static_cast<long long>(c.num_unsent));
-}
-
-int parse_command_line(CLI::App& app, const char* program, int argc, char** argv) {
-  app.set_version_flag("--version", std::string(program) + " " + plumb_version());
-  try {
-    app.parse(argc, argv);
-    return -1;
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success) == 0 ? kExitOk : kExitMachine;
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "%s: %s (--help lists the options)\n", program, error.what());
-    return kExitRefused;
-  }
 }
 
 }  // namespace plumb

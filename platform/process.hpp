@@ -94,9 +94,4 @@ class Process {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Parses the command line of any plumb-* program. Returns the exit code when the program is done
-/// (--help, --version, a refused option), and -1 when it is to continue. An error message begins
-/// with the name `program`.
-[[nodiscard]] int parse_command_line(CLI::App& app, const char* program, int argc, char** argv);
-
 }  // namespace plumb

@@ -1,5 +1,7 @@
 #include "modules/chain/chain.hpp"
 
+#include <initializer_list>
+
 #include "core/channels.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/chain/ground_algorithm.hpp"
@@ -11,6 +13,14 @@ namespace {
 MountConfig without_file(MountConfig config) {
   config.state_file.clear();
   return config;
+}
+
+/// The first reason that is not null; null when all are.
+const char* first_of(std::initializer_list<const char*> reasons) {
+  for (const char* reason : reasons) {
+    if (reason != nullptr) return reason;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -46,12 +56,8 @@ void Chain::take_calibration(std::span<const std::uint8_t> bytes) {
   if (!decode_bounded(bytes, &message)) {
     return refuse(kCameraCalibration.name, "not a camera_calibration_t");
   }
-  const char* vo_refused = vo_.take_calibration(message);
-  const char* ground_refused = ground_.take_calibration(message);
-  const char* objects_refused = objects_.take_calibration(message);
-  const char* why = vo_refused != nullptr       ? vo_refused
-                    : ground_refused != nullptr ? ground_refused
-                                                : objects_refused;
+  const char* why = first_of({vo_.take_calibration(message), ground_.take_calibration(message),
+                              objects_.take_calibration(message)});
   if (why != nullptr) refuse(kCameraCalibration.name, why);
 }
 
@@ -68,22 +74,19 @@ void Chain::take_image(std::span<const std::uint8_t> bytes) {
   mount_message_ = nullptr;
   // Live, CAMERA reaches plumb-ground before the motion that plumb-vo makes of it.
   const char* ground_refused = ground_.take_image(bytes);
-  record.refused = vo_.take_image(bytes);
-  if (vo_.motion() != nullptr) {
-    record.vo = vo_.motion();
+  const char* vo_refused = vo_.take_image(bytes);
+  record.vo = vo_.motion();
+  if (record.vo != nullptr) {
     vo_timer_.end();
-    if (const char* why = ground_.take_motion(*record.vo)) ground_refused = why;
-    ground_.expire();  // no image comes later in a log
-    ground_timer_.end();
+    if (const char* why = take_motion(*record.vo)) ground_refused = why;
   }
-  if (record.refused == nullptr) record.refused = ground_refused;
+  record.refused = first_of({vo_refused, ground_refused});
   if (plane_ != nullptr) {
     record.plane = plane_;
     record.ego = ego_;
-    // Live, too, objects sees each pair of them; what it refuses was refused nowhere else.
-    const char* objects_refused = objects_.take_plane(*plane_);
-    if (const char* why = objects_.take_ego(*ego_)) objects_refused = why;
-    if (record.refused == nullptr) record.refused = objects_refused;
+    const char* plane_refused = objects_.take_plane(*plane_);
+    const char* ego_refused = objects_.take_ego(*ego_);
+    record.refused = first_of({record.refused, ego_refused, plane_refused});
     send_can();
   }
   if (record.refused != nullptr) refuse("frame " + std::to_string(frame.seq), record.refused);
@@ -91,13 +94,18 @@ void Chain::take_image(std::span<const std::uint8_t> bytes) {
   sink_(record);
 }
 
+const char* Chain::take_motion(const vo_motion_t& motion) {
+  const char* refused = ground_.take_motion(motion);
+  ground_.expire();  // The image of a motion never comes later in a log.
+  ground_timer_.end();
+  return refused;
+}
+
 void Chain::take_detections(std::span<const std::uint8_t> bytes) {
   detections_t message;
   if (!decode_bounded(bytes, &message)) return refuse(kDetections.name, "not a detections_t");
-  const char* ground_refused = ground_.take_detections(message);
-  const char* objects_refused = objects_.take_detections(message);
-  objects_.expire();  // no plane comes later in a log
-  const char* why = ground_refused != nullptr ? ground_refused : objects_refused;
+  const char* why = first_of({ground_.take_detections(message), objects_.take_detections(message)});
+  objects_.expire();  // The plane of an image never comes later in a log.
   if (why != nullptr) refuse(kDetections.name, why);
 }
 

@@ -1,9 +1,25 @@
-/// The live chain in one process: CAMERA of a log -> vo -> ground -> can, with DETECTIONS ->
-/// objects, as fast as it goes.
+/// The chain in one process: all that the live processes do with the messages of a log, as fast as
+/// possible. This is the one wiring of the modules. Replay, trainer, calibration and tests use it.
 ///
-/// It runs the classes that plumb-vo, plumb-ground and plumb-can run, and hands on the messages
-/// they would publish, so its results are theirs bit for bit as long as no image is lost. Nothing
-/// but the log's own time stamps enters.
+/// Flow:
+///   message of the log   | taken by, in this order      | which gives
+///   CAMERA_CALIBRATION   | vo, ground, objects          |
+///   CAMERA               | ground, which stores it; vo  | VO_MOTION
+///     VO_MOTION          | ground                       | GROUND_PLANE, EGO_MOTION
+///     GROUND_PLANE       | mount (ground's own output)  | MOUNT, about once a second
+///     and EGO_MOTION     | objects, can                 |
+///     MOUNT              | can                          |
+///   DETECTIONS           | ground, for later images;    |
+///                        | objects                      | OBJECTS
+///     OBJECTS            | can                          | CAN frames, on the sink
+///   Other channels are ignored.
+/// Live:
+///   The nodes are those of plumb-vo, plumb-ground, plumb-objects and plumb-can, and each of them
+///   gets its messages in the order in which it gets them live. The results are those of the live
+///   processes bit for bit as long as no message is lost or late. Only time stamps in the log
+///   count, and no clock does. State files are neither read nor written.
+/// Errors:
+///   A message that a node refuses is counted, and the first reason is kept.
 #pragma once
 
 #include <cstdint>
@@ -25,43 +41,41 @@
 
 namespace plumb {
 
-/// What became of one image.
+/// The results for one image. Messages are valid during the call of the sink.
 struct FrameRecord {
   std::int64_t seq = 0;
   std::int64_t capture_us = 0;
   const char* refused = nullptr;    ///< why the chain did not take the image; null when it did
-  const vo_motion_t* vo = nullptr;  ///< null when refused, like the two below
+  const vo_motion_t* vo = nullptr;  ///< null when refused, as the two below
   const ground_plane_t* plane = nullptr;
   const ego_motion_t* ego = nullptr;
   const StageTimer* vo_timer = nullptr;
   const StageTimer* ground_timer = nullptr;
 };
 
-/// Takes the log's events in order.
+/// Takes the events of a log in their order.
 class Chain {
  public:
   using Sink = std::function<void(const FrameRecord&)>;
-
   using ObjectsSink = std::function<void(const objects_t&)>;
 
-  /// `can_sink` may be null. `sink` is called once per image, `objects_sink` (may be empty) once
-  /// per image that was searched for objects.
+  /// `can_sink` may be null. `sink` is called once per image, and `objects_sink`, which may be
+  /// empty, once per message on DETECTIONS that has been used.
   Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
         ObjectsSink objects_sink = {});
 
   void take(const LogEvent& event);
-  /// The log is over: CAN frames that wait are sent.
+  /// Sends the CAN frames that wait. Call it after the last message.
   void finish();
 
   [[nodiscard]] std::int64_t num_frames() const { return num_frames_; }
   [[nodiscard]] std::int64_t num_refused() const { return num_refused_; }
-  /// "frame 12: why", or "CAMERA_CALIBRATION: why", of what was refused first; empty when nothing
-  /// was.
+  /// The first refusal, as "frame 12: why" or "CAMERA_CALIBRATION: why"; empty without one.
   [[nodiscard]] const std::string& first_refusal() const { return first_refusal_; }
   [[nodiscard]] std::int64_t num_lost() const { return vo_.num_lost(); }
   [[nodiscard]] bool calibrated() const { return vo_.calibrated(); }
   [[nodiscard]] const GroundNode& ground() const { return ground_; }
-  /// From this log alone: a state file is neither read nor written.
+  /// The mount as found from this log alone.
   [[nodiscard]] const MountReport& mount() const { return mount_.report(); }
   [[nodiscard]] const StageTimer& vo_timer() const { return vo_timer_; }
   [[nodiscard]] const StageTimer& ground_timer() const { return ground_timer_; }
@@ -69,6 +83,7 @@ class Chain {
  private:
   void take_calibration(std::span<const std::uint8_t> bytes);
   void take_image(std::span<const std::uint8_t> bytes);
+  const char* take_motion(const vo_motion_t& motion);
   void take_detections(std::span<const std::uint8_t> bytes);
   void take_objects(const objects_t& objects);
   void send_can();
@@ -85,7 +100,7 @@ class Chain {
   CanSink* can_sink_;
   Sink sink_;
   ObjectsSink objects_sink_;
-  const ground_plane_t* plane_ = nullptr;  ///< of the image in hand
+  const ground_plane_t* plane_ = nullptr;  ///< of the current image
   const ego_motion_t* ego_ = nullptr;
   const mount_t* mount_message_ = nullptr;  ///< null for most images
   std::int64_t num_frames_ = 0;

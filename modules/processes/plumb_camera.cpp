@@ -13,6 +13,7 @@
 #include "modules/camera/publish_node.hpp"
 #include "modules/camera/video_source.hpp"
 #include "modules/chain/plumb_config.hpp"
+#include "platform/command_line.hpp"
 #include "platform/process.hpp"
 
 namespace {
@@ -31,11 +32,11 @@ void declare(CLI::App& app, Options* options) {
       app.add_option("--kitti", options->kitti, "KITTI folder: image_<n>, times.txt, calib.txt");
   auto* video = app.add_option("--video", options->video, "video file");
   app.add_option("--kitti-camera", options->kitti_camera, "which image_<n>; default 0")
-      ->check(CLI::Range(0, 3))
+      ->check(plumb::within(0, 3))
       ->needs(kitti);
   app.add_option("--speed", options->speed,
                  "pace of a recording; default 1, 0 is as fast as it goes")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(plumb::within(0.0, 1000.0))
       ->excludes(device);
   device->excludes(kitti)->excludes(video);
   kitti->excludes(video);

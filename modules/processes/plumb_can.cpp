@@ -10,6 +10,7 @@
 #include "platform/can_trace.hpp"
 #include "platform/clock.hpp"
 #include "platform/log.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "platform/process.hpp"
 #include "platform/socket_can.hpp"
 
@@ -124,6 +125,10 @@ int main(int argc, char** argv) {
   const int code = process.run(argc, argv, &config, [&] {
     if (interface.empty() && path.empty())
       throw plumb::UsageError("give --interface, --trace or both");
+    plumb::OverwriteGuard()
+        .reads("--config", process.config_path())
+        .writes("--trace", path)
+        .check();
     (void)can_addresses(config.can);  // refused before the trace file is created
     sinks.open(interface, path);
     can.emplace(process, config.can, sinks);

@@ -1,4 +1,4 @@
-/// plumb-calibrate the way a user runs it, on rendered drives whose lens is known.
+/// Runs plumb-calibrate as a user would, on rendered drives with a known lens.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,7 +16,8 @@ class CalibrateProgram : public testing::Test {
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// A log of a rendered drive that states a lens without radial terms, whatever it was rendered with.
+  /// A log of a rendered drive that states a lens without radial terms, whatever it was rendered
+  /// with.
   std::string render(const std::string& name, const std::string& options) {
     const auto drive = run("plumb-synth", options + " --size 621x188 --quiet --out " + path(name));
     EXPECT_EQ(drive.exit_code, 0) << drive.err;
@@ -42,7 +43,7 @@ TEST_F(CalibrateProgram, FindsTheLensAndTheHeightThatADriveWasRenderedWith) {
   EXPECT_LT(json["residual_px"].get<double>(), json["stated_residual_px"].get<double>());
   ASSERT_TRUE(json["mount"]["height_m"]["observed"]) << result.out;
   EXPECT_NEAR(json["mount"]["height_m"]["value"].get<double>(), 1.65, 0.05);
-  // What it wrote is a configuration that the programs take.
+  // The written file is a configuration that the programs accept.
   const auto replay =
       run("plumb-replay", log + " --config " + path("rig.toml") + " --poses " + path("p.txt"));
   EXPECT_EQ(replay.exit_code, 0) << replay.err;

@@ -48,7 +48,8 @@ TEST(Overlay, DrawsTheBoxWhereTheObjectStands) {
 }
 
 TEST(Overlay, CutsAnObjectBesideTheCameraAtTheBorder) {
-  // From 0.6 to 4.6 m ahead, 1.7 to 3.3 m left: some of it is in sight, on the left and below the horizon.
+  // From 0.6 to 4.6 m ahead, 1.7 to 3.3 m left: some of it is visible, on the left and below the
+  // horizon.
   const cv::Mat changed = drawn({{2.6, 2.5}, 0.0, {4.0, 1.6, 1.5}, false, "car 3 m"});
   EXPECT_GT(cv::countNonZero(changed(cv::Rect(0, 0, 600, kHeight_px))), 50);
   EXPECT_EQ(cv::countNonZero(changed(cv::Rect(600, 0, kWidth_px - 600, kHeight_px))), 0);

@@ -1,4 +1,4 @@
-/// The live chain as real processes: plumb-vo, plumb-ground, plumb-objects, plumb-can, fed by the stock lcm-logplayer.
+/// Runs the live chain as real processes, which the stock lcm-logplayer feeds.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace plumb::test {
 
-/// What a run of the chain left behind.
+/// The results of a run.
 struct LiveResult {
   using Messages = std::vector<std::vector<std::uint8_t>>;
   bool ready = false;   ///< every process reported its health before the log began

@@ -1,4 +1,5 @@
-/// A drive without pictures, with labels of known places and the tables of a replay with known errors.
+/// A drive without pictures, with labels of known places and the tables of a replay with known
+/// errors.
 #pragma once
 
 #include <filesystem>
@@ -24,11 +25,11 @@ inline RoadPlane placed_road() {
 /// The camera drives 1 m per frame and 10 m/s.
 class PlacedDrive {
  public:
-  PlacedDrive() {
+  explicit PlacedDrive(bool with_images = true) {
     std::string times, poses;
     const Eigen::Vector3d ahead = placed_road().R_ground_cam().transpose().col(0);
     for (int i = 0; i < kPlacedFrames; ++i) {
-      folder_.write(format("drive/image_0/%06d.png", i), "");
+      if (with_images) folder_.write(format("drive/image_0/%06d.png", i), "");
       times += format("%.1f\n", 0.1 * i);
       poses +=
           format("1 0 0 %.9f 0 1 0 %.9f 0 0 1 %.9f\n", i * ahead.x(), i * ahead.y(), i * ahead.z());

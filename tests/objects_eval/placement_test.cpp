@@ -50,13 +50,26 @@ TEST(Placement, FindsTheErrorsThatWereMade) {
   EXPECT_NEAR(close.depth_mean_percent, (2.0 * high - low) / 3.0, 1e-6);
   EXPECT_NEAR(close.depth_median_percent, high, 1e-6);
   EXPECT_NEAR(close.depth_bias_percent, (2.0 * high + low) / 3.0, 1e-6);
-  EXPECT_NEAR(close.depth_nees, (2.0 * 1.0 + 4.0) / 3.0, 1e-6) << "one and two deviations off";
+  EXPECT_NEAR(close.depth_nees, (2.0 * 1.0 + 4.0) / 3.0, 1e-6)
+      << "one and two standard deviations off";
   EXPECT_NEAR(close.position_nees, 0.5 * close.depth_nees, 1e-6) << "no error to the side";
 
   const auto distant = placement_figures(result.samples, Range::kDistant, Motion::kAny);
   EXPECT_NEAR(distant.depth_mean_percent, 10.0, 0.02);
   EXPECT_NEAR(distant.position_mean_percent, 10.0, 0.02) << "the error lies along the road";
   EXPECT_GT(distant.position_mean_percent, distant.depth_mean_percent) << "which leans away";
+}
+
+TEST(Placement, NeedsNoImages) {
+  PlacedDrive with_images, without(false);
+  add_two_cars(&with_images);
+  add_two_cars(&without);
+  const DrivePlacement expected = evaluate(&with_images);
+  const DrivePlacement result = evaluate(&without);
+  ASSERT_EQ(result.samples.size(), 24u);
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    EXPECT_EQ(result.samples[i].speed_m_s, expected.samples[i].speed_m_s);
+  }
 }
 
 TEST(Placement, TellsWhatStandsFromWhatMoves) {

@@ -28,7 +28,7 @@ TEST(PaperMode, FollowsARenderedDriveThroughTheWholeChain) {
     if (record.plane->status == ground_plane_t::STATUS_OK) {
       ++num_ok;
       EXPECT_NEAR(record.plane->height_m, 1.65, 0.25) << "frame " << record.seq;
-      // What does not travel is there in process.
+      // Fields that the messages lack are read from the node itself.
       const GroundOutput* output = running->ground().output();
       ASSERT_NE(output, nullptr);
       EXPECT_EQ(output->seq, record.seq);

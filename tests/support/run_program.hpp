@@ -1,6 +1,9 @@
 /// Runs one of the project's programs as a user would.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <string>
 
 #include "plumb_paths.hpp"
@@ -42,6 +45,16 @@ inline ProgramResult run_program(const TempFolder& folder, const std::string& na
   result.out = read_text(out);
   result.err = read_text(err);
   return result;
+}
+
+/// The program ends with exit code 2 and one line on stderr that contains `sentence`.
+inline void expect_refused(const TempFolder& folder, const std::string& name,
+                           const std::string& arguments, const std::string& sentence) {
+  const ProgramResult result = run_program(folder, name, arguments);
+  EXPECT_EQ(result.exit_code, 2) << name << " " << arguments;
+  EXPECT_NE(result.err.find(sentence), std::string::npos) << name << " " << arguments << "\n"
+                                                          << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
 }
 
 }  // namespace plumb::test

@@ -1,4 +1,4 @@
-/// The program as a user runs it.
+/// Runs plumb-synth as a user would.
 #include <gtest/gtest.h>
 
 #include <algorithm>

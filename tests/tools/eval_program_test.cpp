@@ -88,10 +88,7 @@ TEST(EvalProgram, ExitsWithTwoAndOneSentenceOnBadInput) {
       {"plane " + plane + " " + csv, "no frame of"},
       {"plane " + plane, "EST_CSV"}};
   for (const auto& [arguments, expected] : cases) {
-    const auto result = run_program(folder, "plumb-eval", arguments);
-    EXPECT_EQ(result.exit_code, 2) << arguments;
-    expect_contains(result.err, expected);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    test::expect_refused(folder, "plumb-eval", arguments, expected);
   }
 }
 

@@ -41,10 +41,7 @@ TEST(Kitti2LcmProgram, ExitsWithTwoAndOneSentenceOnBadInput) {
       {(folder / "nothing").string() + out, "is not a folder"},
       {seq + " --out " + (folder / "no/such/o.lcm").string(), "cannot write"}};
   for (const auto& [arguments, expected] : cases) {
-    const auto result = run_program(folder, "plumb-kitti2lcm", arguments);
-    EXPECT_EQ(result.exit_code, 2) << arguments;
-    expect_contains(result.err, expected);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    test::expect_refused(folder, "plumb-kitti2lcm", arguments, expected);
   }
 }
 

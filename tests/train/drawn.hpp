@@ -30,8 +30,9 @@ inline std::vector<VarianceRow> draw_rows(const LogVariance& model, int num, std
   return rows;
 }
 
-/// A drive straight on, with true planes, whose dense cue scatters by these deviations and whose points and travel by 2 %
-/// and 0.3 degrees; errors stay alike over neighbours by `correlation`.
+/// A drive straight on, with true planes, whose dense cue has these standard deviations and whose
+/// points and direction of translation scatter by 2 % and 0.3 degrees; errors stay alike over
+/// neighbours by `correlation`.
 inline DriveSamples draw_drive(const std::string& name, int num, std::uint64_t seed,
                                double ln_height_std, double correlation = 0.0) {
   std::mt19937_64 random(seed);

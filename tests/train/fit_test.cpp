@@ -1,4 +1,5 @@
-/// The whole fit: cues, memory, road, deviations of a drive, the published method's lines, held-out scores.
+/// The whole fit: cues, correlation lengths, bends, standard deviations of a drive, the published
+/// method's lines, scores of drives that are held out.
 #include "tools/learn/train/fit.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,8 @@ TEST(Fit, FindsTheDeviationsOfEveryCue) {
 TEST(Fit, FindsHowLongErrorsStayAlike) {
   const double correlation = 0.8;
   const GroundModel model = fit_targets(three_drives(0.01, correlation), built_in_ground_model());
-  // A first-order process: (1 + r) / (1 - r) = 9 images share one error; the sum is cut at 15 images.
+  // A first-order process: (1 + r) / (1 - r) = 9 images share one error; the sum is cut at 15
+  // images.
   EXPECT_NEAR(correlated_images(model.dense_correlation_length_ratio, 0.5), 9.0, 2.5);
   EXPECT_LT(correlated_images(model.points_correlation_length_ratio, 0.5), 2.0);
 }
@@ -81,7 +83,7 @@ TEST(Fit, ChoosesTheDriveDeviationOfTheScaleThatMakesReportedOnesTrue) {
     drive.algorithm = "learned";
     for (Sample& s : drive.frames) {
       s.out_scale_err = 0.05 * normal(random);
-      s.out_scale_var = 0.03 * 0.03 + 1e-4;  // of it 1e-4 by the model of that run
+      s.out_scale_var = 0.03 * 0.03 + 1e-4;  // 1e-4 of it comes from the model of that run
       s.out_scale_bias_var = 1e-4;
     }
   }
@@ -90,7 +92,8 @@ TEST(Fit, ChoosesTheDriveDeviationOfTheScaleThatMakesReportedOnesTrue) {
   EXPECT_NEAR(model.ln_scale_bias_std, 0.04, 0.004);
 }
 
-/// Errors of a reported plane whose filter says 0.002 rad, and that grow with the dense cue's dissent.
+/// Errors of a reported plane whose filter says 0.002 rad, and that grow with the dense cue's
+/// dissent.
 std::vector<DriveSamples> three_planes(double added_var_of_that_run) {
   auto drives = three_drives();
   std::mt19937_64 random(10);
@@ -177,7 +180,7 @@ TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
     EXPECT_EQ(s.learned.num, s.target == Target::kChord ? 295 : 300) << s.drive;
     if (s.target != Target::kPoints) continue;
     if (s.drive == "c") {
-      EXPECT_NEAR(s.learned.nees, 9.0, 2.5);  // the others do not know of it
+      EXPECT_NEAR(s.learned.nees, 9.0, 2.5);  // The other drives do not show this error.
     }
     if (s.drive == "a") {
       EXPECT_LT(s.learned.nees, 1.0);  // c widens the model

@@ -1,4 +1,4 @@
-/// plumb-train the way a user runs it.
+/// Runs plumb-train as a user would.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -33,7 +33,8 @@ TEST_F(TrainProgram, MakesAModelOutOfSamplesThatTheLoaderTakes) {
   EXPECT_NEAR(model.dense_height.of({}), 1e-4, 5e-5);
   EXPECT_EQ(model.origin.drives, "a b");
   EXPECT_NE(model.origin.command.find("--hold-out c"), std::string::npos);
-  EXPECT_EQ(model.origin.command.find('/'), std::string::npos);  // paths say nothing elsewhere
+  EXPECT_EQ(model.origin.command.find('/'),
+            std::string::npos);  // Paths mean nothing on another machine.
   EXPECT_NE(result.out.find("points        c"), std::string::npos) << result.out;
   EXPECT_GT(std::filesystem::file_size(path("plots/dense_height.png")), 1000U);
   EXPECT_NE(test::read_text(path("m.json")).find("\"held_out\""), std::string::npos);

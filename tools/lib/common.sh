@@ -1,4 +1,4 @@
-# Shared by tools/demo and tools/test; sourced, not run.
+# What the shell scripts in tools/ share; sourced, not run.
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -7,13 +7,45 @@ jobs=$(nproc)
 say() { printf '\n== %s\n' "$*"; }
 die() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 2; }
 
+# show_help: prints the comment at the top of the script.
+show_help() { awk 'NR == 1 { next } !/^#/ { exit } { sub(/^# ?/, ""); print }' "$0"; }
+
+# unknown_option WORD KNOWN...: ends the script and names the nearest known option. The distance is
+# that of platform/nearest_word.hpp.
+unknown_option() {
+  local near
+  near=$(printf '%s\n' "$@" | awk '
+    function least(a, b) { return a < b ? a : b }
+    function distance(a, b,    i, j, change) {
+      for (j = 0; j <= length(b); ++j) d[0, j] = j
+      for (i = 1; i <= length(a); ++i) {
+        d[i, 0] = i
+        for (j = 1; j <= length(b); ++j) {
+          change = substr(a, i, 1) != substr(b, j, 1)
+          d[i, j] = least(least(d[i - 1, j] + 1, d[i, j - 1] + 1), d[i - 1, j - 1] + change)
+          if (i > 1 && j > 1 && substr(a, i, 1) == substr(b, j - 1, 1) && substr(a, i - 1, 1) == substr(b, j, 1))
+            d[i, j] = least(d[i, j], d[i - 2, j - 2] + 1)
+        }
+      }
+      return d[length(a), length(b)]
+    }
+    NR == 1 { word = $0; best = int(length(word) / 3) + 1; next }
+    { now = distance(word, $0); if (now < best) { best = now; near = $0 } }
+    END { print near }')
+  [ -n "$near" ] || die "unknown option $1; see --help"
+  die "unknown option $1; did you mean $near?"
+}
+
+# need_value OPTION REST...: ends the script when nothing follows the option.
+need_value() { [ $# -ge 2 ] || die "$1 wants a value"; }
+
 as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; elif command -v sudo >/dev/null; then sudo "$@"; else
     die "cannot install packages: run as root or install sudo; missing: ${missing[*]}"
   fi
 }
 
-# install_packages FILE: installs the Debian packages that FILE names, one a line, and that are not there yet.
+# install_packages FILE: installs those of the Debian packages in FILE, one a line, that are missing.
 install_packages() {
   missing=()
   local package
@@ -28,18 +60,19 @@ install_packages() {
     | sed -un 's/^Setting up \([^ ]*\).*/  \1/p'
 }
 
-# configure PRESET: makes build/PRESET ready.
+# configure PRESET [options...]: makes build/PRESET ready.
 configure() {
-  local launcher=()
+  local preset=$1 launcher=(); shift
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  (cd "$root" && cmake --preset "$1" "${launcher[@]}" > "build-$1.log" 2>&1) || {
-    cat "$root/build-$1.log" >&2; die "configuring $1 failed"
+  (cd "$root" && cmake --preset "$preset" "${launcher[@]}" "$@" > "build-$preset.log" 2>&1) || {
+    cat "$root/build-$preset.log" >&2; die "configuring $preset failed"
   }
-  rm -f "$root/build-$1.log"
+  rm -f "$root/build-$preset.log"
 }
 
-# build PRESET [targets...]: ninja prints its own progress.
+# build PRESET [targets...]: on a terminal ninja shows its own progress; elsewhere only errors are shown.
 build() {
-  local preset=$1; shift
-  NINJA_STATUS="  [%f/%t] " ninja -C "$root/build/$preset" -j "$jobs" "$@"
+  local preset=$1 quiet=(); shift
+  [ -t 1 ] || quiet=(--quiet)
+  NINJA_STATUS="  [%f/%t] " ninja -C "$root/build/$preset" -j "$jobs" "${quiet[@]}" "$@"
 }

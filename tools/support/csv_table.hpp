@@ -25,7 +25,7 @@ class CsvTable {
   /// Absent when there is no such column.
   [[nodiscard]] std::optional<std::string_view> text(std::size_t row,
                                                      std::string_view column) const;
-  /// Absent for an empty cell and for `nan`, which says the same. Throws InputError for other text.
+  /// Absent for an empty cell and for `nan`. Throws InputError for other text that is no number.
   [[nodiscard]] std::optional<double> number(std::size_t row, std::string_view column) const;
 
  private:

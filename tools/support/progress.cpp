@@ -11,7 +11,6 @@ namespace plumb {
 namespace {
 
 constexpr std::int64_t kRedraw_us = 100'000;
-constexpr std::int64_t kNextLine_us = 2'000'000;
 constexpr int kBarCells = 30;
 
 }  // namespace
@@ -37,29 +36,24 @@ void Progress::update(std::int64_t done, std::int64_t count) {
   count_ = count;
   percent_ = total_ > 0 ? static_cast<int>(100 * std::min(done, total_) / total_) : 0;
   const std::int64_t now_us = monotonic_us();
-  if (now_us - drawn_us_ < (terminal_ ? kRedraw_us : kNextLine_us)) return;
+  if (now_us - drawn_us_ < kRedraw_us) return;
   drawn_us_ = now_us;
   draw(percent_);
 }
 
 void Progress::finish(bool complete) {
   if (finished_) return;
+  finished_ = true;
   draw(complete ? 100 : percent_);
   if (terminal_) std::fputc('\n', stderr);
-  finished_ = true;
 }
 
 void Progress::draw(int percent) {
-  const auto count = static_cast<long long>(count_);
-  if (!terminal_) {
-    std::fprintf(stderr, "%s: %3d %%, %lld %s, %.1f/s\n", label_.c_str(), percent, count,
-                 what_.c_str(), per_second());
-    return;
-  }
+  if (!terminal_) return;
   std::string bar(kBarCells, '.');
   std::fill_n(bar.begin(), percent * kBarCells / 100, '#');
   std::fprintf(stderr, "\r%s [%s] %3d %% %lld %s %.1f/s ", label_.c_str(), bar.c_str(), percent,
-               count, what_.c_str(), per_second());
+               static_cast<long long>(count_), what_.c_str(), per_second());
 }
 
 }  // namespace plumb

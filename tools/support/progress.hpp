@@ -1,5 +1,5 @@
-/// Progress of a long job on stderr: a bar that redraws itself on a terminal, a line every two
-/// seconds elsewhere.
+/// Shows the progress of a long job as a bar on stderr when that is a terminal, and nothing
+/// elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,17 @@ namespace plumb {
 
 class Progress {
  public:
-  /// `what` is counted: "frames". @pre total >= 0
+  /// `what` names the things that are counted, for example "frames". @pre total >= 0
   Progress(std::string label, std::string what, std::int64_t total);
-  /// Ends the bar's line if finish() was not called.
+  /// Ends the line of the bar if finish() was not called.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `done` of the total, `count` of what is counted (the two differ when the total is in bytes).
+  /// Takes how much of the total is done and how many things were counted. The two differ when the
+  /// total is a number of bytes.
   void update(std::int64_t done, std::int64_t count);
-  /// The last line: 100 % when `complete`, else where it stopped.
+  /// Draws the bar for the last time: full when `complete`, else as far as the job came.
   void finish(bool complete);
   [[nodiscard]] double per_second() const;
 

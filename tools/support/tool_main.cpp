@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "platform/process.hpp"
+#include "platform/command_line.hpp"
 
 namespace plumb {
 

@@ -1,6 +1,9 @@
 /// Rays from one place against the terrain: what each direction sees first, crests included.
 ///
-/// Frames  map. Memory  rebuilt by build(); queries allocate nothing.
+/// Frames:
+///   map
+/// Memory:
+///   build() allocates; queries allocate nothing.
 #pragma once
 
 #include <Eigen/Core>

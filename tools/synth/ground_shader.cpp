@@ -77,7 +77,7 @@ double GroundShader::asphalt(const Patch& patch, const Footprint& f, const Here&
   const double area = f.minor_m * (reach_x(f) + reach_y(f));
   const double grain = area < 0.16 ? static_cast<double>(textures_.grain.sample(x, y, f)) : 0.0;
   const double fine = static_cast<double>(textures_.stains.sample(x, y, f));
-  // A second, enlarged look at the same tile, turned, so that nothing repeats within sight.
+  // An enlarged and turned copy of the tile hides that the texture repeats.
   const double coarse = static_cast<double>(textures_.stains.sample(
       0.117 * (0.8 * x - 0.6 * y), 0.117 * (0.6 * x + 0.8 * y), 0.117 * f.minor_m));
   double tracks = 0.0;  // tyres polish and darken two lanes' worth of stripes

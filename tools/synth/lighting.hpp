@@ -1,6 +1,9 @@
-/// Sun, sky and haze: what light arrives and what an empty direction shows.
+/// Sun, sky and haze: the light on a surface and the radiance of the sky.
 ///
-/// Frames  map. Radiance is relative (surface.hpp).
+/// Frames:
+///   map
+/// Units:
+///   Radiance is relative (surface.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +29,7 @@ class Lighting {
   [[nodiscard]] const Eigen::Vector3d& to_sun() const { return to_sun_; }
   [[nodiscard]] bool has_sun() const { return config_.sun > 0.0; }
 
-  /// What a ray sees that meets nothing. `pixel_rad` is the pixel's angle.
+  /// Radiance of a ray that meets no surface. `pixel_rad` is the angle of a pixel.
   [[nodiscard]] float sky(const Eigen::Vector3d& direction, double pixel_rad) const;
 
   /// Light that a surface sends towards the viewer. `sunlit` is 0 in shadow.

@@ -1,10 +1,11 @@
-/// Command line -> a rendered drive in a folder
+/// plumb-synth: renders a drive with exact truth into a folder.
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "tools/support/progress.hpp"
 #include "tools/support/tool_main.hpp"
 #include "tools/synth/options.hpp"
 #include "tools/synth/stats.hpp"
@@ -31,19 +32,20 @@ int print_stats(const std::vector<std::string>& folders) {
 
 int render(plumb::synth::Options& options) {
   plumb::synth::complete(options);
+  plumb::synth::refuse_overwriting(options.config);
   const plumb::synth::Studio studio(options.config);
   plumb::synth::prepare_folder(options.config.out, options.force);
   const int frames = studio.num_frames();
+  plumb::Progress bar("rendering", "frames", frames);
   const auto progress = [&](int done) {
-    if (!options.quiet) std::fprintf(stderr, "\rplumb-synth: frame %d of %d", done, frames);
+    if (!options.quiet) bar.update(done, done);
   };
   const plumb::synth::WriteResult result =
       plumb::synth::write_drive(studio, options.threads, g_stop, progress);
-  if (!options.quiet) {
-    std::fprintf(stderr, "\rplumb-synth: %d frames in %.1f s (%.1f per second) in %s\n",
-                 result.frames, result.seconds, result.frames / result.seconds,
-                 options.config.out.c_str());
-  }
+  if (options.quiet) return 0;
+  bar.finish(result.frames == frames);
+  std::printf("%s: %d frames in %.1f s, %.1f per second\n", options.config.out.c_str(),
+              result.frames, result.seconds, result.frames / result.seconds);
   return 0;
 }
 
@@ -55,11 +57,12 @@ int main(int argc, char** argv) {
   CLI::App app{"Renders drives with exact truth, in KITTI odometry layout", "plumb-synth"};
   plumb::synth::Options options;
   bool list = false;
-  app.add_flag("--list-routes", list, "name the built-in routes and exit");
+  app.add_flag("--list-routes", list, "list the built-in routes, then exit");
   plumb::synth::declare(app, options);
   std::vector<std::string> folders;
   CLI::App* stats = app.add_subcommand(
-      "stats", "how drives look to an estimator: a table for comparing rendered with real ones");
+      "stats",
+      "print a table of how drives look to an estimator, to compare rendered with real ones");
   stats->add_option("DIR", folders, "folders in KITTI odometry layout")->required();
   return plumb::tool_main(&app, argc, argv, [&] {
     if (list) return list_routes();

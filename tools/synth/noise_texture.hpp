@@ -1,8 +1,10 @@
 /// Tileable noise with area-averaged mip levels: texture that keeps the variance a real pixel would
 /// see.
 ///
-/// Units   metres on the surface; values have mean 0 and standard deviation 1 at level 0.
-/// Memory  4/3 * 2 bytes per texel, allocated once.
+/// Units:
+///   metres on the surface; values have mean 0 and standard deviation 1 at level 0.
+/// Memory:
+///   4/3 * 2 bytes per texel, allocated once.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +12,8 @@
 
 namespace plumb::synth {
 
-/// What one pixel covers on a surface, in texture axes: a parallelogram of length |axis| and width
-/// `minor_m`.
+/// The footprint of a pixel on a surface in texture axes: a parallelogram of length |axis| and
+/// width `minor_m`.
 struct Footprint {
   double axis_x_m = 0.0;
   double axis_y_m = 0.0;

@@ -1,7 +1,8 @@
 /// Convex solids and leafy ellipsoids that everything beside the road is made of, and rays against
 /// them.
 ///
-/// Frames  local: the solid's own axes, z up; map. R_map_local, centre in map.
+/// Frames:
+///   local: the solid's own axes, z up; map. R_map_local, centre in map.
 #pragma once
 
 #include <Eigen/Core>

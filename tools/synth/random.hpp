@@ -1,7 +1,8 @@
 /// Counter-based random numbers: a value depends on its keys only, never on the order or the thread
 /// that asks.
 ///
-/// Source  the finaliser of splitmix64.
+/// Source:
+///   The finaliser of splitmix64.
 #pragma once
 
 #include <cmath>

@@ -1,8 +1,10 @@
 /// One camera frame by ray casting: exact for distortion, rolling shutter and motion during the
 /// exposure.
 ///
-/// Frames  map; img: (0,0) is the centre of the upper left pixel.
-/// Time    a frame's time is the middle of the exposure of its middle row.
+/// Frames:
+///   map; img: (0,0) is the centre of the upper left pixel.
+/// Time:
+///   A frame's time is the middle of the exposure of its middle row.
 /// Threads FrameRenderer owns its scratch memory: one per thread. The result depends on the time
 ///         only.
 #pragma once
@@ -98,7 +100,7 @@ class FrameRenderer {
   int tiles_x_;
   int tiles_y_;
   double time_s_ = 0.0;
-  Eigen::Vector3d smear_ = Eigen::Vector3d::Zero();  ///< [m] way of the eye during the exposure
+  Eigen::Vector3d smear_ = Eigen::Vector3d::Zero();  ///< [m] motion of the eye during the exposure
   std::vector<Primitive> solids_;
   std::vector<Primitive> moving_;
   std::vector<ObjectPose> moving_objects_;

@@ -1,8 +1,9 @@
-/// Where the drive goes: centre of the driven lane, the road's cross-section, and when the vehicle
-/// is where.
+/// The route of a drive: centre of the driven lane, cross-section of the road, and the distance
+/// along the route at each time.
 ///
-/// Frames  map: x east, y north, z up, metres. Lateral offsets count to the left of the direction
-///         of travel.
+/// Frames:
+///   map: x east, y north, z up, metres. Lateral offsets count to the left of the direction
+///   of travel.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +15,7 @@
 
 namespace plumb::synth {
 
-/// What stands beside the road and how the road is made.
+/// The road's cross-section and how much stands beside it.
 struct Setting {
   double left_m = 4.6;          ///< road edge to the left of the driven lane's centre
   double right_m = 2.7;         ///< road edge to the right

@@ -1,6 +1,7 @@
-/// Everything that stands or moves beside and on the road, with what is known of it.
+/// Everything that stands or moves on and beside the road, with its true poses.
 ///
-/// Frames  map. An object's pose is its bottom centre: x forward, y left, z up.
+/// Frames:
+///   map. An object's pose is its bottom centre: x forward, y left, z up.
 #pragma once
 
 #include <cstdint>

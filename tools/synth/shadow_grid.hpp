@@ -1,7 +1,10 @@
 /// Which solids can stand between a point and a light at infinity: bins across the light's
 /// direction.
 ///
-/// Frames  map. Memory  rebuilt by build(); queries allocate nothing.
+/// Frames:
+///   map
+/// Memory:
+///   build() allocates; queries allocate nothing.
 #pragma once
 
 #include <Eigen/Core>

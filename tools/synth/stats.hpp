@@ -1,7 +1,10 @@
-/// Numbers that say how a drive looks to an estimator, for comparing rendered with real ones.
+/// Figures of how a drive looks to an estimator, for comparing rendered with real drives.
 ///
-/// Units  grey levels and pixels. Road = the part of the image within 1.65 m of the camera's
-///        vertical plane and nearer than 30 m, for a level camera 1.65 m above a plane.
+/// Units:
+///   Grey levels and pixels.
+/// Road:
+///   The part of the image within 1.65 m of the camera's vertical plane and nearer than 30 m, for a
+///   level camera 1.65 m above a plane.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +27,7 @@ struct DriveStats {
   double road_over_8_percent = 0.0;  ///< road pixels whose gradient exceeds 8
   double spectrum_slope = 0.0;  ///< d log power / d log frequency of rows, 4..64 cycles per 256 px
   double road_spectrum_slope = 0.0;
-  double noise = 0.0;                 ///< deviation in the smoothest blocks
+  double noise = 0.0;                 ///< standard deviation in the smoothest blocks
   double corner_cells_percent = 0.0;  ///< 32 px cells with a corner worth tracking
   double road_corner_cells_percent = 0.0;
   double survive_5_percent = 0.0;  ///< corners still followed by Lucas-Kanade after 5 frames

@@ -24,7 +24,8 @@ Route make_route(const SynthConfig& config) {
   return route;
 }
 
-/// Half a frame before the first one at or after the wish: no exposure and no readout sees the knock itself.
+/// The time of the knock: half a frame before the first frame at or after the wanted time, so that
+/// no exposure and no readout sees the knock itself.
 DriveConfig knocked_between_frames(const SynthConfig& config) {
   DriveConfig drive = config.drive;
   if (drive.knock.at_s <= 0.0) return drive;

@@ -1,6 +1,7 @@
-/// A drive ready to be rendered: builds every part from the configuration, in order, and keeps it.
+/// Builds every part of a drive from the configuration, so that it can be rendered.
 ///
-/// Threads all members are read-only once constructed.
+/// Threads:
+///   All members are read-only once constructed.
 #pragma once
 
 #include "tools/synth/synth_config.hpp"

@@ -1,7 +1,9 @@
 /// What a pixel sees of a surface and how that surface answers light.
 ///
-/// Frames  map. Reflectance and radiance are relative: 1 = a white sheet facing a light of strength
-///         1.
+/// Frames:
+///   map
+/// Units:
+///   Reflectance and radiance are relative; 1 is a white sheet that faces a light of strength 1.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +21,7 @@ struct Patch {
   Eigen::Vector3d view;   ///< unit, from the eye to the point
   double width_m = 0.01;  ///< one pixel across the view
   Eigen::Vector3d smear =
-      Eigen::Vector3d::Zero();  ///< [m] way of the surface past the eye during the exposure
+      Eigen::Vector3d::Zero();  ///< [m] motion of the surface past the eye during the exposure
 };
 
 struct Reflectance {

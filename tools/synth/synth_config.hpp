@@ -1,4 +1,4 @@
-/// Everything a rendered drive depends on.
+/// The configuration of a rendered drive.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace plumb::synth {
 
-/// What is wrong with the user's wishes, in one sentence.
+/// Options that contradict each other or cannot be met, in one sentence.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,8 +1,10 @@
-/// The ground: a smooth height field with the road's crown on it, and how far each place is from
-/// the road.
+/// The ground: a smooth height field with the road's crown, and the distance of each place from the
+/// road.
 ///
-/// Frames  map: x east, y north, z up, metres.
-/// Rays    o + t d with d of any length; t counts in lengths of d.
+/// Frames:
+///   map: x east, y north, z up, metres.
+/// Rays:
+///   o + t d with d of any length; t counts in lengths of d.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +35,7 @@ class Terrain {
   /// Height without crown and bumps: cheaper, at most kCrown lower.
   [[nodiscard]] double base_height(double x, double y) const;
 
-  /// What the road adds to base_height: crown and bumps. `edge_m` is edge_distance(x, y).
+  /// Height of crown and bumps above base_height(). `edge_m` is edge_distance(x, y).
   [[nodiscard]] double relief(double x, double y, double edge_m) const;
 
   /// Signed distance to the nearest road edge, negative on the road, up to kFar.

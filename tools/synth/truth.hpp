@@ -1,6 +1,7 @@
-/// What the estimators are judged by: the local road plane and the labelled objects of a frame.
+/// The truth of a frame: the local road plane and the labelled objects.
 ///
-/// Frames  cam: x right, y down, z forward. The plane's normal points down: n . X = h with h > 0.
+/// Frames:
+///   cam: x right, y down, z forward. The plane's normal points down: n . X = h with h > 0.
 #pragma once
 
 #include <cstdint>

@@ -12,14 +12,19 @@
 #include <thread>
 #include <vector>
 
+#include "platform/overwrite_guard.hpp"
+
 namespace plumb::synth {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr int kMinLabelPixels = 25;
+constexpr const char* kImageFolder = "image_0";
+constexpr std::array kTextFiles = {"calib.txt",           "times.txt",   "poses.txt",
+                                   "gt_ground_plane.txt", "vehicle.txt", "label_02.txt"};
 
-/// A text file that says so when it cannot be written.
+/// A text file that throws std::runtime_error when it cannot be written.
 class TextFile {
  public:
   explicit TextFile(const fs::path& path) : path_(path), out_(path) { check(); }
@@ -114,7 +119,7 @@ void write_truth(const Studio& studio, int frames, const std::vector<std::string
   for (TextFile* file : {&times, &poses, &planes, &vehicle, &objects}) file->finish();
 }
 
-/// One worker's things: renders and writes single frames.
+/// Renders and writes single frames. Every thread has one.
 class Worker {
  public:
   explicit Worker(const Studio& studio)
@@ -129,7 +134,7 @@ class Worker {
     renderer_.render(t, rendered_);
     const double light = config.tunnel.factor(since_start) * config.covered.factor(since_start);
     sensor_.develop(rendered_, since_start, static_cast<std::uint64_t>(frame), light, bytes_);
-    const fs::path path = config.out / "image_0" / format("%06d.png", frame);
+    const fs::path path = config.out / kImageFolder / format("%06d.png", frame);
     const cv::Mat image(rendered_.height_px, rendered_.width_px, CV_8UC1, bytes_.data());
     if (!cv::imwrite(path.string(), image))
       throw std::runtime_error("cannot write " + path.string());
@@ -159,14 +164,19 @@ void prepare_folder(const fs::path& folder, bool force) {
     if (!fs::is_directory(folder, error)) throw UsageError(folder.string() + " is not a folder");
     if (!fs::is_empty(folder, error) && !force)
       throw UsageError(folder.string() + " is not empty: give another --out or --force");
-    for (const char* name : {"image_0", "calib.txt", "times.txt", "poses.txt",
-                             "gt_ground_plane.txt", "vehicle.txt", "label_02.txt"}) {
-      fs::remove_all(folder / name, error);
-    }
+    fs::remove_all(folder / kImageFolder, error);
+    for (const char* name : kTextFiles) fs::remove(folder / name, error);
   }
-  fs::create_directories(folder / "image_0", error);
+  fs::create_directories(folder / kImageFolder, error);
   if (error)
-    throw UsageError("cannot create " + (folder / "image_0").string() + ": " + error.message());
+    throw UsageError("cannot create " + (folder / kImageFolder).string() + ": " + error.message());
+}
+
+void refuse_overwriting(const SynthConfig& config) {
+  OverwriteGuard guard;
+  guard.reads("--poses", config.poses);
+  for (const char* name : kTextFiles) guard.writes("--out", config.out / name);
+  guard.check();
 }
 
 WriteResult write_drive(const Studio& studio, int num_threads, const std::atomic<bool>& stop,

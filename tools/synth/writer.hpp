@@ -1,7 +1,8 @@
 /// Renders a drive into a folder in KITTI odometry layout, with its truth.
 ///
-/// Threads frames are handed out one by one to `num_threads` workers; the files do not depend on
-///         how many.
+/// Threads:
+///   Frames are handed out one by one to `num_threads` workers. The files do not depend on their
+///   number.
 #pragma once
 
 #include <atomic>
@@ -24,7 +25,10 @@ struct WriteResult {
 WriteResult write_drive(const Studio& studio, int num_threads, const std::atomic<bool>& stop,
                         const std::function<void(int)>& progress);
 
-/// Throws UsageError when `folder` holds something and `force` is not set; creates it otherwise.
+/// Throws InputError when the drive's files would overwrite the pose file that it follows.
+void refuse_overwriting(const SynthConfig& config);
+
+/// Throws UsageError when `folder` is not empty and `force` is not set; creates it otherwise.
 /// With `force`, only files of a former drive are removed.
 void prepare_folder(const std::filesystem::path& folder, bool force);
 

@@ -29,8 +29,18 @@ Layout find_layout(const SequenceOptions& options) {
   const fs::path raw = options.folder / ("image_0" + camera);
   if (fs::is_directory(odometry)) return {false, odometry, options.folder / "times.txt"};
   if (fs::is_directory(raw)) return {true, raw / "data", raw / "timestamps.txt"};
+  if (!options.need_images) return {false, {}, options.folder / "times.txt"};
   throw InputError(options.folder.string() + " is not a KITTI sequence: it has neither " +
                    odometry.filename().string() + " nor " + raw.filename().string() + "/data");
+}
+
+/// The images of the layout. Without an image folder, each time stands for an image without a file.
+std::vector<NumberedImage> find_images(const Layout& layout) {
+  if (!layout.images.empty()) return list_images(layout.images);
+  std::vector<NumberedImage> images(read_odometry_times_us(layout.times).size());
+  for (std::size_t i = 0; i < images.size(); ++i) images[i].number = static_cast<std::int64_t>(i);
+  if (images.empty()) throw InputError(layout.times.string() + " holds no time");
+  return images;
 }
 
 /// The two coefficients form a pair: when only one of them is given, the other one is 0.
@@ -172,7 +182,7 @@ void select_frames(const SequenceOptions& options, Sequence* sequence) {
 Sequence read_sequence(const SequenceOptions& options) {
   const Layout layout = find_layout(options);
   const RawCalibration files = layout.raw ? find_raw_calibration(options.folder) : RawCalibration{};
-  const std::vector<NumberedImage> images = list_images(layout.images);
+  const std::vector<NumberedImage> images = find_images(layout);
   const RectifiedCamera camera =
       layout.raw ? read_raw_camera(options, files) : read_odometry_camera(options);
 

@@ -48,6 +48,7 @@ struct Sequence {
 
 struct SequenceOptions {
   std::filesystem::path folder;
+  bool need_images = true;       ///< false: without image folders, frame n is row n of times.txt
   int camera = 0;                ///< 0 and 1 are grey, 2 and 3 colour
   std::filesystem::path poses;   ///< when empty, the file of the folder is used
   std::filesystem::path planes;  ///< when empty, the file of the folder is used

@@ -39,7 +39,7 @@ double number(const std::vector<std::string_view>& words, std::size_t column,
                    std::string(words[column]) + "' is not a finite number");
 }
 
-/// A label says 0, 1 or 2 for how far it is cut; a tracker -1 for not known.
+/// Labels state 0, 1 or 2 for how far they are cut; trackers write -1 for unknown.
 double truncated_ratio(double level) { return level < 0.0 ? kNan : 0.5 * level; }
 
 Occlusion occlusion_of(double level) {

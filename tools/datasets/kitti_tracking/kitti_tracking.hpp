@@ -1,13 +1,14 @@
-/// KITTI tracking files: labels with 3D boxes, trackers' output without, and the camera of a
-/// sequence.
+/// Reads KITTI tracking files: labels with 3D boxes, trackers' output without them, and the camera
+/// of a sequence.
 ///
-/// Format   per line: frame id type truncated occluded alpha left top right bottom height width
-/// length x y z
-///          rotation_y [score]; -1 or -10 where a tracker says nothing. DontCare regions and
-///          empty boxes (trackers write some at the image's border) are left out.
-/// Frames   boxes in the image of the left colour camera; positions (middle of the underside) in
-/// rectified
-///          camera 0, from which read_tracking_camera's offset leads to the colour camera.
+/// Format:
+///   Each line has frame, id, type, truncated, occluded, alpha, left, top, right, bottom,
+///   height, width, length, x, y, z, rotation_y and perhaps a score. Trackers write -1 or -10
+///   for what they do not know. DontCare regions and empty boxes, which some trackers write at
+///   the image's border, are left out.
+/// Frames:
+///   Boxes are in the image of the left colour camera. Positions (middle of the underside) are
+///   in rectified camera 0; read_tracking_camera() gives the offset to the colour camera.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +29,8 @@ struct TrackingRow {
   double rotation_y_rad = 0.0;  ///< about cam's y; 0: the object's x along the camera's
 };
 
-/// In order of the file. Throws InputError for a wrong row and for an object that has two boxes in
-/// one frame.
+/// Rows in the order of the file. Throws InputError for a wrong row and for an object that has two
+/// boxes in one frame.
 [[nodiscard]] std::vector<TrackingRow> read_tracking(const std::filesystem::path& path);
 
 struct TrackingCamera {
@@ -37,8 +38,8 @@ struct TrackingCamera {
   Eigen::Vector3d t_cam_cam0 = Eigen::Vector3d::Zero();  ///< p_cam = p_cam0 + t
 };
 
-/// P2 of a calib file. The image size, which the file does not hold, is that of the benchmark's
-/// usual images.
+/// The camera P2 of a calibration file. The file lacks the image size, so the benchmark's usual
+/// size is taken.
 [[nodiscard]] TrackingCamera read_tracking_camera(const std::filesystem::path& path);
 
 /// The rows of one frame as a detector's message; rows beyond its capacity are left out.

@@ -1,4 +1,4 @@
-/// The ground planes that plumb-replay wrote with --csv.
+/// Reads the ground planes that plumb-replay wrote with --csv.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace plumb {
 
-/// One row. What the row leaves empty (the status says why) is absent.
+/// One row. Empty cells are absent; the status says why.
 struct EstimatedPlane {
   std::int64_t seq = 0;
   std::string status;  ///< "ok", "held", "initializing", "invalid"
@@ -22,7 +22,8 @@ struct EstimatedPlane {
 };
 
 /// Columns are found by the names in the first line: seq, height_m, pitch_rad and roll_rad must be
-/// there; plane_status and the deviations may be. Throws InputError with file, line and column.
+/// present; plane_status and the standard deviations are optional. Throws InputError with file,
+/// line and column.
 [[nodiscard]] std::vector<EstimatedPlane> read_estimate_csv(const std::filesystem::path& path);
 
 }  // namespace plumb

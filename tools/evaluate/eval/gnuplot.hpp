@@ -1,4 +1,4 @@
-/// Pictures through the gnuplot program.
+/// Draws pictures with the gnuplot program.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct Plot {
   std::string x_label;
   std::string y_label;
   std::vector<Curve> curves;
-  bool equal_axes = false;  ///< a map: one metre is as long both ways
+  bool equal_axes = false;  ///< for a map, on which a metre has the same length along both axes
   bool y_from_zero = false;
 };
 

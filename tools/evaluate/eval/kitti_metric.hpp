@@ -1,10 +1,13 @@
 /// The KITTI odometry benchmark's error of a trajectory over segments of fixed length.
 ///
-/// As the development kit does it: the truth's path length in single precision; a segment begins at
-/// every tenth frame and ends at the first frame that lies more than L further; E = inv(inv(Est_f)
-/// Est_l) inv(Gt_f) Gt_l with general inverses; t = |E_t| / L, r = angle(E_R) / L; speed from ten
-/// frames a second. Only relative poses enter, so neither file need begin with the identity. Units
-/// metres, radians, m/s; ratios are not percent.
+/// Metric:
+///   As in the benchmark's development kit. Path lengths are those of the truth in single
+///   precision. A segment begins at every tenth frame and ends at the first frame that lies more
+///   than L further. E = inv(inv(Est_f) Est_l) inv(Gt_f) Gt_l with general inverses, t = |E_t| / L,
+///   r = angle(E_R) / L. Speeds assume ten frames a second. Only relative poses count, so neither
+///   file need begin with the identity.
+/// Units:
+///   Metres, radians, m/s; ratios are not percent.
 #pragma once
 
 #include <string>
@@ -14,8 +17,8 @@
 
 namespace plumb {
 
-/// Since 2013-10-03, and before (older papers; five to a hundred metres weigh the truth's own
-/// jitter).
+/// Lengths in use since 2013-10-03, and those of older papers. Segments of five to a hundred metres
+/// show the jitter of the truth.
 [[nodiscard]] std::vector<double> new_kitti_lengths_m();  ///< 100, 200 .. 800
 [[nodiscard]] std::vector<double> old_kitti_lengths_m();  ///< 5, 10, 50, 100, 150 .. 400
 
@@ -38,14 +41,14 @@ struct SegmentError {
                                                        const std::vector<PoseMatrix>& est,
                                                        const MetricOptions& options);
 
-/// Mean error of some segments in the units papers print. Both NaN when there is none.
+/// Mean errors of some segments in the units that papers print; NaN without segments.
 struct MeanError {
   int num_segments = 0;
   double t_percent = 0.0;
   double r_deg_m = 0.0;
 };
 
-/// A bin of the tables: `at` is a length [m] or a speed [m/s].
+/// A bin of the tables; `at` is a length [m] or a speed [m/s].
 struct BinError {
   double at = 0.0;
   MeanError error;

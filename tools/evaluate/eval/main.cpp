@@ -1,4 +1,5 @@
-/// plumb-eval: how far an estimated trajectory, estimated ground planes, or placed objects, are from the truth.
+/// plumb-eval: measures how far an estimated trajectory, estimated ground planes or placed objects
+/// are from the truth.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -6,11 +7,14 @@
 
 #include "core/input_error.hpp"
 #include "modules/datasets/number_file.hpp"
+#include "platform/command_line.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/evaluate/eval/plots.hpp"
 #include "tools/evaluate/eval/report_json.hpp"
 #include "tools/evaluate/eval/report_text.hpp"
 #include "tools/evaluate/objects_eval/objects_command.hpp"
 #include "tools/evaluate/objects_eval/placement_command.hpp"
+#include "tools/support/report_options.hpp"
 #include "tools/support/tool_main.hpp"
 
 namespace plumb {
@@ -30,8 +34,7 @@ struct Arguments {
   std::string gt, est, gt_dir, est_dir;
   std::string plane_gt, plane_est;
   std::string lengths = "new";
-  std::string json, plots;
-  std::string plot_format = "png";
+  ReportOptions report;
   EvalOptions options;
 };
 
@@ -53,10 +56,10 @@ std::vector<double> parse_lengths(const std::string& text) {
 template <typename Report>
 void give_out(const Arguments& arguments, const Report& report) {
   std::cout << to_text(report);
-  if (!arguments.json.empty()) write_json(report, arguments.json);
-  if (arguments.plots.empty()) return;
-  for (const auto& file : draw_plots(report, arguments.plots, arguments.plot_format)) {
-    std::cout << "wrote " << file.string() << "\n";
+  const ReportOptions& wanted = arguments.report;
+  if (!wanted.json.empty()) write_json(report, wanted.json);
+  if (!wanted.plots.empty()) {
+    print_written(draw_plots(report, wanted.plots, wanted.plot_format));
   }
 }
 
@@ -66,6 +69,13 @@ int evaluate_trajectories(Arguments arguments) {
   if (pair == folders) {
     throw InputError("give either GT and EST, or --gt-dir and --est-dir; see --help");
   }
+  OverwriteGuard()
+      .reads("GT", arguments.gt)
+      .reads("EST", arguments.est)
+      .reads_folder("--gt-dir", arguments.gt_dir, {".txt"})
+      .reads_folder("--est-dir", arguments.est_dir, {".txt"})
+      .writes("--json", arguments.report.json)
+      .check();
   arguments.options.metric.lengths_m = parse_lengths(arguments.lengths);
   std::vector<SequenceReport> sequences;
   if (folders) {
@@ -79,6 +89,11 @@ int evaluate_trajectories(Arguments arguments) {
 }
 
 int evaluate_planes(const Arguments& arguments) {
+  OverwriteGuard()
+      .reads("GT_PLANE", arguments.plane_gt)
+      .reads("EST_CSV", arguments.plane_est)
+      .writes("--json", arguments.report.json)
+      .check();
   const PlaneReport report =
       compare_planes(read_planes(arguments.plane_gt), read_estimate_csv(arguments.plane_est));
   if (report.num_compared == 0) {
@@ -87,14 +102,6 @@ int evaluate_planes(const Arguments& arguments) {
   }
   give_out(arguments, report);
   return 0;
-}
-
-void add_outputs(CLI::App* app, Arguments* arguments) {
-  app->add_option("--json", arguments->json, "write the figures to FILE")->type_name("FILE");
-  app->add_option("--plots", arguments->plots, "draw pictures into DIR")->type_name("DIR");
-  app->add_option("--plot-format", arguments->plot_format, "png or svg")
-      ->check(CLI::IsMember({"png", "svg"}))
-      ->capture_default_str();
 }
 
 CLI::App* add_options(CLI::App* app, Arguments* arguments) {
@@ -109,21 +116,21 @@ CLI::App* add_options(CLI::App* app, Arguments* arguments) {
       ->capture_default_str();
   app->add_option("--step", arguments->options.metric.step_frames,
                   "frames from one segment's start to the next one's")
-      ->check(CLI::Range(1, 1000))
+      ->check(within(1, 1000))
       ->capture_default_str();
   app->add_option("--scale-window", arguments->options.scale_window_m,
                   "true path per window of the scale ratio [m]")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(within(1.0, 1000.0))
       ->capture_default_str();
   app->add_flag("--allow-partial", arguments->options.allow_partial,
                 "compare the rows both files have when their number differs");
-  add_outputs(app, arguments);
+  add_report_options(app, &arguments->report);
   CLI::App* plane = app->add_subcommand("plane", "compare ground planes instead");
   plane->add_option("GT_PLANE", arguments->plane_gt, "rows: frame nx ny nz height_m ...")
       ->required();
   plane->add_option("EST_CSV", arguments->plane_est, "what plumb-replay wrote with --csv")
       ->required();
-  add_outputs(plane, arguments);
+  add_report_options(plane, &arguments->report);
   return plane;
 }
 
@@ -132,7 +139,7 @@ CLI::App* add_options(CLI::App* app, Arguments* arguments) {
 
 int main(int argc, char** argv) {
   plumb::Arguments arguments;
-  CLI::App app("Error of estimated trajectories, ground planes and objects against the truth",
+  CLI::App app("Measures errors of trajectories, ground planes and objects against the truth",
                "plumb-eval");
   const CLI::App* plane = plumb::add_options(&app, &arguments);
   plumb::ObjectsCommand objects_command;

@@ -1,6 +1,7 @@
-/// Estimated ground planes against true ones.
+/// Compares estimated ground planes with true ones.
 ///
-/// Units    radians and metres inside; degrees and percent in what is printed.
+/// Units:
+///   radians and metres inside; degrees and percent in what is printed.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace plumb {
 
-/// A frame that has both.
+/// A frame with an estimated and a true plane.
 struct PlanePair {
   std::int64_t seq = 0;
   double true_height_m = 0.0;
@@ -28,11 +29,11 @@ struct AngleError {
   double rms_rad = 0.0;
 };
 
-/// What the stated deviations are worth: errors divided by them. NaN where the file states none.
+/// Errors divided by their stated standard deviations. NaN where the file states none.
 struct Calibration {
   int num = 0;
-  double nees = 0.0;  ///< mean squared ratio: 1 when the deviations are right, more when too small
-  double within_1_sigma = 0.0;  ///< share; 0.683 for a normal law
+  double nees = 0.0;            ///< mean squared ratio; 1 is right, more means overconfident
+  double within_1_sigma = 0.0;  ///< share; 0.683 for normal errors
   double within_2_sigma = 0.0;  ///< share; 0.954
 };
 
@@ -53,7 +54,7 @@ struct PlaneReport {
   std::vector<PlanePair> pairs;  ///< by seq
 };
 
-/// Rows without a true plane are passed over; true planes without a row lower the coverage only.
+/// Rows without a true plane are passed over; true planes without a row only lower the coverage.
 [[nodiscard]] PlaneReport compare_planes(const std::map<std::int64_t, TruePlane>& truth,
                                          const std::vector<EstimatedPlane>& estimates);
 

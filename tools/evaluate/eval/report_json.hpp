@@ -1,4 +1,4 @@
-/// The same figures for programs. Numbers that there are none of are null.
+/// Writes reports as JSON. Missing numbers are null.
 #pragma once
 
 #include <filesystem>

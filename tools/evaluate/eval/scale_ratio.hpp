@@ -1,4 +1,4 @@
-/// How long estimated motion is against true motion: the scale error by itself, without rotation.
+/// Ratios of estimated to true lengths of motion: the scale error alone, without rotation.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-/// Of |estimated| / |true|. All but the counts NaN when there is nothing to compare.
+/// Statistics of |estimated| / |true|. Without anything to compare, all but the count are NaN.
 struct RatioStatistics {
   int num = 0;
   double median = 0.0;

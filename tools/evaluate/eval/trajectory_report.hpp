@@ -1,4 +1,4 @@
-/// Evaluation of one or several sequences: read, compared, summed up.
+/// Reads one or several sequences, compares them with the truth and sums up.
 #pragma once
 
 #include <filesystem>

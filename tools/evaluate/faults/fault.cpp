@@ -70,7 +70,8 @@ Fault stamps_shift(const std::string& name, std::int64_t by_us, std::size_t coun
   return {name, count == 1 ? 'C' : 'D', words, [by_us, count](const FaultDrive& drive) {
             FaultRun run = sound(drive);
             const std::size_t from = middle(run);
-            // A lasting shift is a fault at its first image alone: later ones agree among themselves.
+            // A lasting shift is a fault at its first image alone: later ones agree among
+            // themselves.
             for (std::size_t i = from; i < std::min(run.shots.size(), from + count); ++i) {
               run.shots[i].stamp_us += by_us;
               run.shots[i].faulty = i == from || count == 1;

@@ -1,6 +1,7 @@
 /// Faults of camera, clock and source, as sequences of images made of a sound drive.
 ///
-/// Units  microseconds, m/s.
+/// Units:
+///   microseconds, m/s.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 /// A recorded drive, taken apart so that faults can be put into it.
 ///
-/// Units  microseconds, m/s. Pictures are 8-bit grey, rows packed.
+/// Units:
+///   microseconds, m/s. Pictures are 8-bit grey, rows packed.
 #pragma once
 
 #include <cstdint>

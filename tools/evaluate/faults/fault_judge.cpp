@@ -57,7 +57,8 @@ double time_to_detect(const std::vector<Verdict>& verdicts) {
   return detect_s;
 }
 
-/// Time from the last faulty image until results are valid and right for the rest of the drive, a hundredth of them aside.
+/// Time from the last faulty image until results are valid and right for the rest of the drive, a
+/// hundredth of them aside.
 double time_to_recover(const std::vector<Verdict>& verdicts) {
   const auto last = std::find_if(verdicts.rbegin(), verdicts.rend(),
                                  [](const Verdict& verdict) { return verdict.faulty; });

@@ -1,6 +1,7 @@
-/// Runs a faulty drive through the chain and holds what it marks as valid against the truth.
+/// Runs a faulty drive through the chain and compares the results marked as valid with the truth.
 ///
-/// A result is wrong when its speed is off by more than three stated standard deviations and by more than 0.3 m/s.
+/// A result is wrong when its speed is off by more than three stated standard deviations and by
+/// more than 0.3 m/s.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ struct FaultResult {
   std::int64_t num_valid = 0;    ///< of them, status ok, scale held, standstill or coasting
   std::int64_t num_wrong = 0;    ///< of the valid ones
   double worst_error_m_s = 0.0;  ///< largest error of the speed while valid
-  /// From the first faulty image until no wrong result follows within the fault; 0 when none was wrong.
+  /// From the first faulty image until no wrong result follows within the fault; 0 when none was
+  /// wrong.
   double detect_s = 0.0;
   /// From the first sound image after the fault until results are valid and right; negative: never.
   double recover_s = 0.0;

@@ -1,4 +1,5 @@
-/// plumb-faults: puts faults of camera, clock and source into recorded drives and tells what the chain makes of them.
+/// plumb-faults: puts faults of camera, clock and source into recorded drives and reports what the
+/// chain makes of them.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "core/input_error.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
 #include "tools/evaluate/faults/fault_judge.hpp"
 #include "tools/support/tool_main.hpp"
@@ -55,15 +57,16 @@ int main(int argc, char** argv) {
   plumb::Arguments arguments;
   std::vector<std::string> names;
   for (const plumb::Fault& fault : plumb::all_faults()) names.push_back(fault.name);
-  CLI::App app("Faults put into recorded drives, and what the chain makes of them", "plumb-faults");
+  CLI::App app("Puts faults into recorded drives and reports what the chain makes of them",
+               "plumb-faults");
   app.footer(plumb::kFooter);
   app.add_option("LOG", arguments.logs, "logs with true poses")->required();
   app.add_option("--fault", arguments.faults, "only these rows of the table")
-      ->check(CLI::IsMember(names));
+      ->check(plumb::one_of(names));
   app.add_option("--config", arguments.config, "TOML file; every key is optional");
   app.add_option("--most-wrong", arguments.most_wrong_ratio,
                  "share of the valid results that may be wrong")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(plumb::within(0.0, 1.0))
       ->capture_default_str();
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
 }

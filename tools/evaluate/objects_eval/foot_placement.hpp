@@ -1,4 +1,5 @@
-/// Where the foot point of a box alone puts an object: eq. (2) of the box's lower middle, half a class's length added.
+/// Places an object by the foot point of its box alone: eq. (2) for the lower middle of the box,
+/// plus half the usual length of its class.
 #pragma once
 
 #include "modules/detections/foot_point.hpp"
@@ -6,7 +7,8 @@
 
 namespace plumb {
 
-/// Middle of the footprint in cam as (Z, X) [m]. A foot point at the horizon counts as three times too far.
+/// The middle of the footprint in cam as (Z, X) [m]. A foot point at or above the horizon counts as
+/// three times too far.
 [[nodiscard]] Eigen::Vector2d place_by_foot(const CameraModel& camera, const RoadPlane& road,
                                             const Box& box, const FootprintPrior& size,
                                             double truth_m);

@@ -1,4 +1,4 @@
-/// Which labels an evaluation takes, and which box belongs to a label.
+/// Chooses the labels of an evaluation and the box that belongs to a label.
 #pragma once
 
 #include <string>
@@ -9,12 +9,15 @@
 
 namespace plumb {
 
-inline constexpr double kClose_m = 10.0;  ///< and nearer is close, as in the paper's section 6.4
+inline constexpr double kClose_m =
+    10.0;  ///< up to here an object is close, as in section 6.4 of the paper
 
-/// Labels with a 3D box, of one of `classes`, whole in the image and at most partly hidden.
+/// Whether the label has a 3D box and one of `classes`, is whole in the image and at most partly
+/// hidden.
 [[nodiscard]] bool is_evaluated(const TrackingRow& row, const std::vector<ObjectClass>& classes);
 
-/// The box of a label: its own, or the tracker's that overlaps it most, by half at least. Null when there is none.
+/// The label's own box, or the tracker's box that overlaps it most. Null when none overlaps by at
+/// least half.
 [[nodiscard]] const Detection* box_of(const TrackingRow& label, const DetectionFrame& frame,
                                       bool labels_are_boxes);
 

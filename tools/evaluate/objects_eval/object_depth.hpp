@@ -1,11 +1,14 @@
-/// How far off objects are placed, on KITTI tracking sequences without images: the calibrated plane,
-/// with and without the detection cue, by the foot point alone and by plumb-objects' tracks.
+/// Measures how far off objects are placed on KITTI tracking sequences, from boxes alone.
 ///
-/// Metric   |Z - Z*| / Z* of the middle of the footprint, as in Song and Chandraker, CVPR 2014, section
-///          6.4; close is Z* <= 10 m. Cars and vans that are whole and at most partly hidden in the
-///          labels.
-/// Fairness a sample counts for all methods or for none. Nothing but boxes, tracks and the calibration
-///          is known: neither images nor the camera's own motion.
+/// Methods:
+///   The calibrated plane with and without the detection cue, each with the foot point alone and
+///   with plumb-objects' tracks.
+/// Metric:
+///   |Z - Z*| / Z* for the middle of the footprint, as in Song and Chandraker, CVPR 2014, section
+///   6.4. Up to Z* = 10 m an object is close. Cars and vans must be whole in the image and at
+///   most partly hidden.
+/// Fairness A sample counts for all methods or for none. All of them know boxes, tracks and the
+///          calibration, and neither images nor the camera's motion.
 #pragma once
 
 #include <array>
@@ -47,9 +50,9 @@ struct SequenceDepth {
   std::string name;
   DepthErrors close;
   DepthErrors distant;
-  std::size_t num_labels = 0;  ///< that the metric takes, found by the detector or not
+  std::size_t num_labels = 0;  ///< labels that the metric takes, detected or not
   double pitch_rms_rad =
-      0.0;  ///< of the cue against the plane through the labelled feet; NaN without
+      0.0;  ///< of the cue against the plane through the labelled feet; NaN without any
 };
 
 struct ObjectDepthOptions {
@@ -65,10 +68,10 @@ struct ObjectDepthOptions {
 /// One entry per sequence. Throws InputError for files that are missing or wrong.
 [[nodiscard]] std::vector<SequenceDepth> evaluate_object_depth(const ObjectDepthOptions& options);
 
-/// All sequences together, as one of the name "all".
+/// All sequences together, as one sequence named "all".
 [[nodiscard]] SequenceDepth pool(const std::vector<SequenceDepth>& sequences);
 
-/// A table: per sequence close and distant depth errors of all methods [%].
+/// A table with the close and distant depth errors of all methods [%] per sequence.
 [[nodiscard]] std::string depth_table(const std::vector<SequenceDepth>& sequences);
 
 }  // namespace plumb

@@ -10,8 +10,11 @@
 
 #include "core/input_error.hpp"
 #include "modules/chain/plumb_config.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/evaluate/objects_eval/object_depth.hpp"
+#include "tools/support/report_options.hpp"
 
 namespace plumb {
 namespace {
@@ -64,22 +67,29 @@ void write_json(const ObjectsCommand& command, const std::vector<SequenceDepth>&
 
 CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command) {
   CLI::App* objects = app->add_subcommand(
-      "objects", "how far off objects are placed on KITTI tracking sequences, from boxes alone");
+      "objects",
+      "measure how far off objects are placed on KITTI tracking sequences, from boxes alone");
   objects->add_option("ROOT", command->root, "folder with calib/ and label_02/")->required();
   objects->add_option("--boxes", command->boxes, "folder under ROOT with the boxes to use")
       ->capture_default_str();
-  objects->add_option("--sequence", command->sequences, "only this one; may be repeated")
+  objects
+      ->add_option("--sequence", command->sequences, "evaluate only this sequence; may be repeated")
       ->type_name("NNNN");
   objects->add_option("--camera-height", command->camera_height_m, "above the road [m]")
-      ->check(CLI::Range(0.3, 4.0))
+      ->check(within(0.3, 4.0))
       ->capture_default_str();
   objects->add_option("--config", command->config, "settings, keys detections.* and objects.*")
       ->type_name("FILE");
-  objects->add_option("--json", command->json, "write the figures to FILE")->type_name("FILE");
+  add_json_option(objects, &command->json);
   return objects;
 }
 
 int run_objects_command(const ObjectsCommand& command) {
+  OverwriteGuard()
+      .reads("--config", command.config)
+      .reads_folder("ROOT", command.root, {".txt"})
+      .writes("--json", command.json)
+      .check();
   PlumbConfig config;
   load_config(command.config, &config);
   ObjectDepthOptions options;

@@ -1,4 +1,5 @@
-/// The subcommand `plumb-eval objects`: how far off objects are placed on KITTI tracking sequences.
+/// The subcommand `plumb-eval objects` measures how far off objects are placed on KITTI tracking
+/// sequences.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -16,7 +17,7 @@ struct ObjectsCommand {
   std::string json;
 };
 
-/// The subcommand with its options, which fill `command`.
+/// Adds the subcommand; its options fill `command`.
 CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command);
 
 /// Prints the table, writes the JSON. Returns the exit code; throws InputError and ConfigError.

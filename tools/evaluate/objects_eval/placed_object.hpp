@@ -1,6 +1,7 @@
-/// Rows of plumb-replay --objects: where objects were said to stand.
+/// Reads the places of objects from the table of plumb-replay --objects.
 ///
-/// Frames   ground: x forward, y left, on the road under the camera, of the row's image.
+/// Frames:
+///   ground: x forward, y left, on the road under the camera, of the row's image.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +20,9 @@ struct PlacedObject {
 /// By sequence number of the image and track.
 using PlacedObjects = std::map<std::pair<std::int64_t, std::int64_t>, PlacedObject>;
 
-/// Objects without a place are left out. Throws InputError with file and line for a missing column, text that is not a
-/// number, a place without a sound covariance, and a track that has two rows in one image.
+/// Objects without a place are left out. Throws InputError with file and line for a missing column,
+/// text that is not a number, a place without a valid covariance, and a track with two rows in one
+/// image.
 [[nodiscard]] PlacedObjects read_placed_objects(const std::filesystem::path& csv);
 
 }  // namespace plumb

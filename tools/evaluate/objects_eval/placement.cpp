@@ -25,6 +25,7 @@ class LabelledDrive {
         t_cam_cam0(read_tracking_camera(folder / "calib.txt").t_cam_cam0) {
     SequenceOptions options;
     options.folder = folder;
+    options.need_images = false;
     const Sequence sequence = read_sequence(options);
     camera = sequence.camera;
     for (const SequenceFrame& frame : sequence.frames) frames_[frame.seq] = frame;

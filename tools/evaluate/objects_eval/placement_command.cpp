@@ -7,7 +7,9 @@
 
 #include "core/input_error.hpp"
 #include "modules/chain/plumb_config.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/evaluate/objects_eval/placement_report.hpp"
 
 namespace plumb {
@@ -38,11 +40,24 @@ PlacementOptions options_of(const PlacementCommand& command) {
   return options;
 }
 
+/// @pre three files a drive
+void refuse_overwriting(const PlacementCommand& command) {
+  const std::vector<std::string>& files = command.files;
+  OverwriteGuard guard;
+  guard.reads("--config", command.config).writes("--json", command.report.json);
+  for (std::size_t i = 0; i < files.size(); i += 3) {
+    guard.reads_folder("DRIVE", files[i], {".txt", ".png"});
+    guard.reads("FRAMES", files[i + 1]).reads("OBJECTS", files[i + 2]);
+  }
+  guard.check();
+}
+
 }  // namespace
 
 CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command) {
-  CLI::App* placed = app->add_subcommand(
-      "placed", "how far off the whole chain placed objects: plumb-replay's tables against labels");
+  CLI::App* placed = app->add_subcommand("placed",
+                                         "measure how far off the whole chain placed objects: "
+                                         "compare plumb-replay's tables with labels");
   placed
       ->add_option(
           "DRIVE FRAMES OBJECTS", command->files,
@@ -52,16 +67,12 @@ CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command) {
       ->required();
   placed->add_option("--boxes", command->boxes, "file in DRIVE with the boxes that were replayed")
       ->capture_default_str();
-  placed->add_option("--classes", command->classes, "labels to take: car, van, truck, bus")
+  placed->add_option("--classes", command->classes, "classes of the labels to take")
       ->delimiter(',')
-      ->check(CLI::IsMember({"car", "van", "truck", "bus"}))
+      ->check(one_of({"car", "van", "truck", "bus"}))
       ->capture_default_str();
   placed->add_option("--config", command->config, "settings of the replay")->type_name("FILE");
-  placed->add_option("--json", command->json, "write the figures to FILE")->type_name("FILE");
-  placed->add_option("--plots", command->plots, "draw pictures into DIR")->type_name("DIR");
-  placed->add_option("--plot-format", command->plot_format, "png or svg")
-      ->check(CLI::IsMember({"png", "svg"}))
-      ->capture_default_str();
+  add_report_options(placed, &command->report);
   return placed;
 }
 
@@ -70,6 +81,7 @@ int run_placement_command(const PlacementCommand& command) {
   if (files.size() % 3 != 0) {
     throw InputError("give DRIVE, FRAMES and OBJECTS for every drive; see --help");
   }
+  refuse_overwriting(command);
   const PlacementOptions options = options_of(command);
   std::vector<DrivePlacement> drives;
   for (std::size_t i = 0; i < files.size(); i += 3) {
@@ -79,10 +91,10 @@ int run_placement_command(const PlacementCommand& command) {
                      std::to_string(drives.back().num_labels) + " labels of " + files[i]);
   }
   std::cout << placement_table(drives);
-  if (!command.json.empty()) write_placement_json(drives, command.json);
-  if (command.plots.empty()) return 0;
-  for (const auto& file : draw_placement(drives, command.plots, command.plot_format)) {
-    std::cout << "wrote " << file.string() << "\n";
+  const ReportOptions& wanted = command.report;
+  if (!wanted.json.empty()) write_placement_json(drives, wanted.json);
+  if (!wanted.plots.empty()) {
+    print_written(draw_placement(drives, wanted.plots, wanted.plot_format));
   }
   return 0;
 }

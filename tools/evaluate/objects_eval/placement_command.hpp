@@ -1,9 +1,11 @@
-/// The subcommand `plumb-eval placed`: how far off the whole chain placed objects.
+/// The subcommand `plumb-eval placed` measures how far off the whole chain placed objects.
 #pragma once
 
 #include <CLI/App.hpp>
 #include <string>
 #include <vector>
+
+#include "tools/support/report_options.hpp"
 
 namespace plumb {
 
@@ -11,14 +13,15 @@ struct PlacementCommand {
   std::vector<std::string> files;  ///< DRIVE FRAMES_CSV OBJECTS_CSV, once or more
   std::string boxes = "label_02.txt";
   std::vector<std::string> classes{"car", "van"};
-  std::string config, json, plots;
-  std::string plot_format = "png";
+  std::string config;
+  ReportOptions report;
 };
 
-/// The subcommand with its options, which fill `command`.
+/// Adds the subcommand; its options fill `command`.
 CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command);
 
-/// Prints the table, writes JSON and plots. Returns the exit code; throws InputError and ConfigError.
+/// Prints the table, writes JSON and plots. Returns the exit code; throws InputError and
+/// ConfigError.
 int run_placement_command(const PlacementCommand& command);
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
-/// What came out of an evaluation of placed objects: figures, a table, JSON, pictures.
+/// Reports an evaluation of placed objects as figures, a table, JSON and pictures.
 ///
-/// Units    metres inside; percent of the true depth in what is printed.
+/// Units:
+///   metres inside; percent of the true depth in what is printed.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +16,16 @@ namespace plumb {
 enum class Range { kClose, kDistant };  ///< Z* <= 10 m, and beyond
 enum class Motion { kAny, kStanding, kMoving };
 
-/// Over samples; NaN without any.
+/// Figures over some samples; NaN without samples.
 struct PlacementFigures {
   std::size_t num_samples = 0;
   double depth_mean_percent = 0.0;
   double depth_median_percent = 0.0;
-  double depth_bias_percent = 0.0;  ///< mean with its sign, too far positive
+  double depth_bias_percent = 0.0;  ///< mean of the signed error; positive is too far
   double position_mean_percent = 0.0;
   double position_median_percent = 0.0;
-  double depth_nees = 0.0;  ///< 1 when the deviations are right, more when they are too small
+  double depth_nees =
+      0.0;  ///< 1 when the standard deviations are right, more when they are too small
   double position_nees = 0.0;
   double foot_percent = 0.0;  ///< depth, foot point on the reported plane
   double foot_calibrated_percent = 0.0;
@@ -32,7 +34,7 @@ struct PlacementFigures {
 [[nodiscard]] PlacementFigures placement_figures(const std::vector<PlacementSample>& samples,
                                                  Range range, Motion motion);
 
-/// All drives together, as one of the name "all".
+/// All drives together, as one drive named "all".
 [[nodiscard]] DrivePlacement pool(const std::vector<DrivePlacement>& drives);
 
 [[nodiscard]] std::string placement_table(const std::vector<DrivePlacement>& drives);

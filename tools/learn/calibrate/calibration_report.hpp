@@ -1,4 +1,4 @@
-/// What plumb-calibrate found, as text, as JSON and as a configuration that the programs read.
+/// Writes the results of plumb-calibrate as text, as JSON and as a configuration for the programs.
 #pragma once
 
 #include <string>
@@ -17,7 +17,8 @@ struct CalibrationReport {
 [[nodiscard]] std::string to_text(const CalibrationReport& report);
 /// Throws InputError when the file cannot be written.
 void write_json(const CalibrationReport& report, const std::string& path);
-/// [camera] with what was observed; the rest as comments.
+/// Writes the section [camera] with the observed values; values that were not observed become
+/// comments.
 void write_camera_config(const CalibrationReport& report, const std::string& path);
 
 }  // namespace plumb

@@ -4,8 +4,18 @@
 
 #include "core/input_error.hpp"
 #include "modules/datasets/number_file.hpp"
+#include "platform/nearest_word.hpp"
 
 namespace plumb {
+namespace {
+
+std::vector<std::string> keys_of(const std::array<CameraParameter, 4>& parameters) {
+  std::vector<std::string> keys;
+  for (const CameraParameter& parameter : parameters) keys.emplace_back(parameter.key);
+  return keys;
+}
+
+}  // namespace
 
 const std::array<CameraParameter, 4>& camera_parameters() {
   static constexpr std::array<CameraParameter, 4> kParameters{{
@@ -32,8 +42,11 @@ std::vector<const CameraParameter*> parse_parameters(const std::string& names) {
     const auto& all = camera_parameters();
     const auto it = std::find_if(all.begin(), all.end(),
                                  [name](const CameraParameter& p) { return name == p.key; });
-    if (it == all.end())
-      throw InputError("--parameters: '" + std::string(name) + "' is none of k1, k2, focal, row");
+    if (it == all.end()) {
+      const std::vector<std::string> known = keys_of(all);
+      throw InputError("--parameters: '" + std::string(name) + "' is none of " + word_list(known) +
+                       did_you_mean(name, known));
+    }
     if (std::find(found.begin(), found.end(), &*it) != found.end())
       throw InputError("--parameters: " + std::string(name) + " comes twice");
     found.push_back(&*it);

@@ -1,4 +1,4 @@
-/// What of a camera can be found out of drives, one number each.
+/// The parameters of a camera that can be found from drives, one number each.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ struct CameraParameter {
   const char* key;  ///< on the command line and in the report
   const char* unit;
   const char* meaning;
-  double step;        ///< of the search, and of the differences that tell the deviation
+  double step;        ///< of the search, and of the differences for the standard deviation
   double bound;       ///< largest change from the stated calibration
-  double needed_std;  ///< a larger deviation counts as not observed
+  double needed_std;  ///< with a larger standard deviation it counts as not observed
   double (*get)(const CameraModel& camera);
   void (*set)(CameraModel* camera, double value);
 };
@@ -23,7 +23,8 @@ struct CameraParameter {
 /// k1, k2, focal, row.
 [[nodiscard]] const std::array<CameraParameter, 4>& camera_parameters();
 
-/// Throws InputError for a name that is none of them or comes twice. `names`: "k1,k2".
+/// Parses names with commas between them ("k1,k2"). Throws InputError for an unknown name and for
+/// one that comes twice.
 [[nodiscard]] std::vector<const CameraParameter*> parse_parameters(const std::string& names);
 
 }  // namespace plumb

@@ -20,14 +20,14 @@ namespace {
 constexpr double kLostResidual_px = 1.0;
 constexpr std::size_t kBlockImages = 10;
 constexpr double kFewestBlocks = 5.0;
-// A curvature counts when its mean over the blocks is as many times its own deviation.
+// A curvature counts when its mean over the blocks is this many times its standard deviation.
 constexpr double kSureCurvature = 2.0;
 constexpr double kEndOfSearchSteps = 0.5;
-// The surface is trusted that far outside its grid, in steps.
+// The surface is trusted this far outside its grid, in steps.
 constexpr double kLongestMove = 1.0;
 constexpr int kMostRounds = 4;
 
-/// Mean residual of every block of images; a block that says nothing is NaN.
+/// Mean residual of every block of images; NaN for a block without residuals.
 using Blocks = std::vector<double>;
 
 Blocks blocks_of(const std::vector<double>& residuals) {
@@ -45,7 +45,7 @@ Blocks blocks_of(const std::vector<double>& residuals) {
   return blocks;
 }
 
-/// Mean over the blocks that say something.
+/// Mean over the blocks that have residuals.
 double mean_of(const Blocks& blocks) {
   double sum = 0.0;
   int num = 0;
@@ -63,8 +63,8 @@ class Objective {
             const LensFitProgress& progress)
       : drives_(drives), options_(options), progress_(progress) {}
 
-  /// Every drive through VO, with a camera `steps` steps away from the stated calibration. A camera is run once: search,
-  /// grid and report meet at some of them.
+  /// Runs every drive through VO with a camera that is `steps` steps away from the stated one. Each
+  /// camera is run only once, because search, grid and report share some of them.
   const Blocks& run(const std::vector<const CameraParameter*>& parameters,
                     const std::vector<double>& steps) {
     CameraModel camera = drives_.front().camera;
@@ -118,12 +118,12 @@ double value_for_nlopt(const std::vector<double>& x, std::vector<double>& /*grad
   return mean_of(s->objective->run(*s->parameters, x));
 }
 
-/// Where the objective is least, in steps from the stated calibration.
+/// The minimum of the objective, in steps from the stated calibration.
 std::vector<double> search_least(Objective* objective,
                                  const std::vector<const CameraParameter*>& parameters) {
   std::vector<double> x(parameters.size(), 0.0);
   Search search{objective, &parameters};
-  // BOBYQA wants two parameters at least.
+  // BOBYQA needs at least two parameters.
   nlopt::opt optimiser(parameters.size() > 1 ? nlopt::LN_BOBYQA : nlopt::LN_SBPLX,
                        static_cast<unsigned>(parameters.size()));
   std::vector<double> bound;
@@ -140,7 +140,8 @@ std::vector<double> search_least(Objective* objective,
   return x;
 }
 
-/// The objective around a point: c + g x + x^T H x / 2, least squares over a grid of runs, for every block and their mean.
+/// The objective around a point, c + g x + x^T H x / 2, fitted by least squares to a grid of runs
+/// for every block and for their mean.
 struct Surface {
   Eigen::MatrixXd block_gradients;  ///< one row per block, at the point
   std::vector<Eigen::MatrixXd> block_hessians;
@@ -148,7 +149,7 @@ struct Surface {
   Eigen::MatrixXd hessian;
 };
 
-/// Offsets in steps: the middle, one parameter at a time, and every pair.
+/// Offsets in steps: none, one parameter at a time, and every pair of parameters.
 std::vector<Eigen::VectorXd> grid_offsets(Eigen::Index n) {
   std::vector<Eigen::VectorXd> offsets{Eigen::VectorXd::Zero(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -162,7 +163,7 @@ std::vector<Eigen::VectorXd> grid_offsets(Eigen::Index n) {
   return offsets;
 }
 
-/// 1, x_i, then x_i x_j for j <= i.
+/// The monomials 1, x_i, then x_i x_j for j <= i.
 Eigen::RowVectorXd terms_of(const Eigen::VectorXd& x) {
   const Eigen::Index n = x.size();
   Eigen::RowVectorXd row(1 + n + n * (n + 1) / 2);
@@ -219,7 +220,7 @@ Surface surface_around(Objective* objective, const std::vector<const CameraParam
   return surface;
 }
 
-/// Whether the surface bends upwards in every direction, and the blocks agree about that in its flattest one.
+/// Whether the surface is convex, and the blocks agree about its flattest direction.
 bool has_least(const Surface& surface) {
   const auto num = static_cast<double>(surface.block_hessians.size());
   if (num < kFewestBlocks) return false;
@@ -236,10 +237,11 @@ bool has_least(const Surface& surface) {
 
 struct Least {
   std::vector<double> x;    ///< in steps from the stated calibration
-  std::vector<double> std;  ///< in steps; NaN where the objective has no least
+  std::vector<double> std;  ///< in steps; NaN where the objective has no minimum
 };
 
-/// Steps to the surface's least as long as it lies outside the grid, then its deviations.
+/// Moves to the minimum of the surface until it lies inside the grid, then finds its standard
+/// deviations.
 Least refine(Objective* objective, const std::vector<const CameraParameter*>& parameters,
              std::vector<double> x) {
   const std::size_t n = parameters.size();
@@ -272,7 +274,7 @@ Least refine(Objective* objective, const std::vector<const CameraParameter*>& pa
   return least;
 }
 
-/// Deviation over what is needed; a parameter without a least is worst.
+/// Standard deviation over the needed one; a parameter without a minimum is worst.
 double excess(const CameraParameter& parameter, double std_steps) {
   return std::isnan(std_steps) ? kInf : std_steps * parameter.step / parameter.needed_std;
 }

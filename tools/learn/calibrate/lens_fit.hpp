@@ -1,11 +1,17 @@
-/// Lens terms that let VO explain the drives best: the mean residual of its own points, over whole runs of it, has its
-/// least where the lens is right. Turns show it: there each point crosses the image.
+/// Fits lens terms to drives by minimising the residuals of visual odometry.
 ///
-/// BOBYQA (Powell 2009, by NLopt) comes near; a quadratic surface through a grid of runs, which averages what the choice
-/// of features does to single runs, gives the least itself. Deviations are the sandwich H^-1 G H^-1 of the surface's
-/// curvature and of the scatter of its gradient over blocks of images.
-/// A parameter whose deviation is larger than it needs to be keeps what the calibration stated, and the rest is fitted
-/// anew: the one that is worst off first.
+/// Objective:
+///   The mean residual of VO's points over whole runs is least for the right lens. Turns make
+///   it observable, because each point then crosses the image.
+/// Method:
+///   BOBYQA (Powell 2009, from NLopt) comes close to the minimum. A quadratic surface through
+///   a grid of runs then gives the minimum itself; it averages out the effect that the choice
+///   of features has on single runs.
+/// Variance:
+///   Standard deviations come from the sandwich H^-1 G H^-1 with the curvature H of the
+///   surface and the scatter G of its gradient over blocks of images.
+/// A parameter whose standard deviation is too large keeps its stated value, and the others are
+/// fitted again. The worst parameter is dropped first.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +29,7 @@ struct FittedParameter {
   const CameraParameter* parameter = nullptr;
   double stated = 0.0;
   double value = 0.0;  ///< `stated` when not observed
-  double std = 0.0;    ///< NaN where the objective has no least
+  double std = 0.0;    ///< NaN where the objective has no minimum
   bool observed = false;
 };
 
@@ -40,19 +46,21 @@ struct LensFitOptions {
   int most_runs = 120;
 };
 
-/// Called after every run over all drives: how many, the parameters in hand and the residual.
+/// Called after every run over all drives with the number of runs, the parameters and the residual.
 using LensFitProgress =
     std::function<void(int num_runs, const std::vector<double>& values, double residual_px)>;
 
-/// @pre drives and wanted not empty, all drives of the same camera. Throws Stopped when `stop_requested()`.
+/// Throws Stopped when `stop_requested()`.
+/// @pre `drives` and `wanted` are not empty, and all drives have the same camera.
 [[nodiscard]] LensFit fit_lens(const std::vector<RecordedDrive>& drives,
                                const std::vector<const CameraParameter*>& wanted,
                                const LensFitOptions& options, const LensFitProgress& progress);
 
-/// SIGINT or SIGTERM came.
+/// Thrown when SIGINT or SIGTERM stops a fit.
 class Stopped : public std::exception {};
 
-/// Residual of every image [px]; what VO did not follow counts as 1 px, images before its start and at rest as NaN.
+/// Residual of every image [px]. A lost track counts as 1 px; images before initialisation and
+/// images at rest are NaN.
 [[nodiscard]] std::vector<double> residuals_of(const RecordedDrive& drive,
                                                const CameraModel& camera, const VoConfig& config,
                                                std::uint64_t seed);

@@ -1,4 +1,5 @@
-/// plumb-calibrate: ordinary drives with turns -> what of the lens and the mount they tell, and what they do not.
+/// plumb-calibrate: finds lens terms and mount from ordinary drives with turns, and reports what
+/// could not be observed.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -8,8 +9,11 @@
 #include "core/input_error.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/datasets/text.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/learn/calibrate/calibration_report.hpp"
+#include "tools/support/report_options.hpp"
 #include "tools/support/stop_flag.hpp"
 #include "tools/support/tool_main.hpp"
 
@@ -42,7 +46,17 @@ std::vector<RecordedDrive> read_drives(const Arguments& arguments) {
   return drives;
 }
 
+void refuse_overwriting(const Arguments& arguments) {
+  OverwriteGuard guard;
+  for (const std::string& log : arguments.logs) guard.reads("LOG", log);
+  guard.reads("--config", arguments.config)
+      .writes("--out", arguments.out)
+      .writes("--json", arguments.json)
+      .check();
+}
+
 int run(const Arguments& arguments) {
+  refuse_overwriting(arguments);
   PlumbConfig config;
   load_config(arguments.config, &config);
   const auto wanted = parse_parameters(arguments.parameters);
@@ -81,19 +95,21 @@ int run(const Arguments& arguments) {
 }  // namespace plumb
 
 int main(int argc, char** argv) {
-  CLI::App app("Finds a rig's lens terms and mount out of ordinary drives", "plumb-calibrate");
+  CLI::App app("Finds the lens terms and the mount of a camera rig from ordinary drives",
+               "plumb-calibrate");
   app.footer(plumb::kFooter);
   plumb::Arguments arguments;
   app.add_option("LOG", arguments.logs, "logs of one rig")->required();
-  app.add_option("--parameters", arguments.parameters, "of k1, k2, focal, row; comma-separated")
+  app.add_option("--parameters", arguments.parameters,
+                 "parameters to find: some of k1, k2, focal, row, with commas between them")
       ->capture_default_str();
-  app.add_option("--out", arguments.out, "write a configuration with [camera] to FILE")
+  app.add_option("--out", arguments.out, "write the found values as a configuration to FILE")
       ->type_name("FILE");
-  app.add_option("--json", arguments.json, "write the figures to FILE")->type_name("FILE");
+  plumb::add_json_option(&app, &arguments.json);
   app.add_option("--config", arguments.config, "TOML configuration");
   app.add_option("--seed", arguments.seed, "seed of VO's random sampling")->capture_default_str();
-  app.add_option("--max-images", arguments.most_images, "of every log")
-      ->check(CLI::Range(30, 100000))
+  app.add_option("--max-images", arguments.most_images, "use at most so many images of every log")
+      ->check(plumb::within(30, 100000))
       ->capture_default_str();
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
 }

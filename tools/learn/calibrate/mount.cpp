@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "modules/ground/ground.hpp"
 #include "modules/chain/model_file_source.hpp"
+#include "modules/ground/ground.hpp"
 #include "modules/vo/vo.hpp"
 #include "tools/learn/calibrate/lens_fit.hpp"
 #include "tools/learn/train/truth_track.hpp"
@@ -14,14 +14,14 @@
 namespace plumb {
 namespace {
 
-// Neighbouring frames share their error: that many of them count as one.
+// Neighbouring frames share their error, so this many of them count as one.
 constexpr double kFramesPerSight = 10.0;
 constexpr int kFewestFrames = 50;
 constexpr double kStraight_rad = 0.003;  // turned per image
 constexpr double kLeastStepRatio = 0.2;  // in camera heights
 constexpr std::size_t kBlockFrames = 20;
 
-/// What the chain said about the frames that tell the mount.
+/// Results of the chain in the frames from which the mount is found.
 struct Sights {
   std::vector<double> pitch_rad, roll_rad, yaw_rad;
   std::vector<double> ln_length_ratios;  ///< true over estimated length of blocks of frames
@@ -79,7 +79,7 @@ MountValue median_of(const std::vector<double>& values, const char* what) {
     return m;
   }
   m.value = median(values);
-  // 1.25: of a median against a mean, for a normal law.
+  // A median of normally distributed values has 1.25 times the standard error of their mean.
   m.std =
       1.25 * robust_std(values) / std::sqrt(static_cast<double>(values.size()) / kFramesPerSight);
   return m;

@@ -1,9 +1,12 @@
-/// How the camera sits on its vehicle, out of the whole chain run over drives.
+/// Finds how the camera sits on its vehicle by running the whole chain over drives.
 ///
-/// Angles  of the camera against the direction of travel on straight stretches (yaw: camera looks left of it positive)
-///         and against the road (pitch: nose down positive; roll: right side down positive), medians over frames.
-/// Height  only against a metric reference, the true poses of a log: the height at which the chain's way gets the true
-///         length.
+/// Angles:
+///   Medians over frames. Yaw is measured against the direction of travel on straight
+///   stretches and is positive when the camera looks to the left of it. Pitch (positive nose
+///   down) and roll (positive right side down) are measured against the road.
+/// Height:
+///   The height at which the chain's path gets the true length. It needs a metric reference:
+///   true poses in the log.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
-/// The images of one log, decoded and kept, so that they can be run through the estimators again and again.
+/// The decoded images of one log, kept in memory for repeated runs of the estimators.
 ///
-/// Memory  grey images of the whole log: 0.5 MB each at 1242 x 375.
+/// Memory:
+///   0.5 MB per grey image of 1242 x 375 pixels.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,8 @@ struct RecordedDrive {
   [[nodiscard]] ImageView view(std::size_t i) const;
 };
 
-/// The first `most_images` of a log. Throws InputError, LogError; also for a log without a calibration before its images
-/// or without 30 images.
+/// Reads at most the first `most_images` images. Throws LogError when the log cannot be read, and
+/// InputError when no calibration precedes the images or when there are fewer than 30 images.
 [[nodiscard]] RecordedDrive read_drive(const std::string& log, std::size_t most_images);
 
 }  // namespace plumb

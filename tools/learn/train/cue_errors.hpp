@@ -1,6 +1,9 @@
 /// Errors of the cues and of what was reported, against one frame's truth.
 ///
-/// Frames  cam of the newest image.  Units  [vo] for the cues, metres for what is reported.
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   [vo] for the cues, metres for what is reported.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
 #include "tools/learn/train/fit_command.hpp"
+#include "platform/overwrite_guard.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -43,12 +44,18 @@ std::vector<DriveSamples> without(const std::vector<DriveSamples>& drives,
   return rest;
 }
 
+OverwriteGuard guard_samples(const std::vector<std::string>& samples) {
+  OverwriteGuard guard;
+  for (const std::string& file : samples) guard.reads("SAMPLES", file);
+  return guard;
+}
+
 void write_models(const TrainedModels& models, const std::string& path) {
   std::ofstream file(path);
   file << models_text(models);
   file.close();
   if (!file) throw InputError("cannot write " + path);
-  (void)load_models(path);  // a number outside its range must show here, not in a vehicle
+  (void)load_models(path);  // A number outside its range is found here and not in a vehicle.
 }
 
 void add_origin(const FitCommand& command, const std::vector<DriveSamples>& drives,
@@ -81,24 +88,25 @@ void fit_learned(const FitCommand& command, const std::vector<DriveSamples>& all
 }  // namespace
 
 CLI::App* add_fit_command(CLI::App* app, FitCommand* command) {
-  CLI::App* sub = app->add_subcommand("fit", "files of samples -> one model file");
+  CLI::App* sub = app->add_subcommand("fit", "fit a model file to files of samples");
   sub->add_option("SAMPLES", command->samples, "files that plumb-train sample wrote")->required();
   sub->add_option("--out", command->out, "model file to write")->required();
   sub->add_option("--start", command->start,
-                  "model that gives what these samples say nothing about [the built-in one]");
-  sub->add_option("--hold-out", command->hold_out, "drives to score, not to fit; may be repeated")
+                  "model for everything that these samples do not determine [the built-in one]");
+  sub->add_option("--hold-out", command->hold_out, "drive to score but not to fit; may be repeated")
       ->take_all();
   sub->add_flag("--plane-only", command->plane_only,
-                "keep the cues' models: fit what the reported plane adds to them");
-  sub->add_option("--json", command->json, "write model and scores to FILE")->type_name("FILE");
-  sub->add_option("--plots", command->plots, "draw pictures into DIR")->type_name("DIR");
-  sub->add_option("--plot-format", command->plot_format, "png or svg")
-      ->check(CLI::IsMember({"png", "svg"}))
-      ->capture_default_str();
+                "keep the models of the cues and fit what the reported plane adds");
+  add_report_options(sub, &command->report);
   return sub;
 }
 
 int run_fit_command(const FitCommand& command) {
+  guard_samples(command.samples)
+      .reads("--start", command.start)
+      .writes("--out", command.out)
+      .writes("--json", command.report.json)
+      .check();
   const std::vector<DriveSamples> all = read(command.samples);
   const std::vector<DriveSamples> drives = without(all, command.hold_out);
   FitReport report;
@@ -116,23 +124,25 @@ int run_fit_command(const FitCommand& command) {
   std::cout << to_text(report.outputs) << to_text(report.cues);
   add_origin(command, drives, &report.models.ground);
   write_models(report.models, command.out);
-  if (!command.json.empty()) write_json(report, command.json);
-  if (!command.plots.empty()) {
-    for (const auto& file : draw_fit(drives, report, command.plots, command.plot_format))
-      std::cout << "wrote " << file.string() << "\n";
+  const ReportOptions& wanted = command.report;
+  if (!wanted.json.empty()) write_json(report, wanted.json);
+  if (!wanted.plots.empty()) {
+    print_written(draw_fit(drives, report, wanted.plots, wanted.plot_format));
   }
   std::cout << "wrote " << command.out << "\n";
   return 0;
 }
 
 CLI::App* add_score_command(CLI::App* app, ScoreCommand* command) {
-  CLI::App* sub = app->add_subcommand("score", "what was reported against truth, out of samples");
+  CLI::App* sub =
+      app->add_subcommand("score", "compare the reported values in samples with the truth");
   sub->add_option("SAMPLES", command->samples, "files that plumb-train sample wrote")->required();
-  sub->add_option("--json", command->json, "write the figures to FILE")->type_name("FILE");
+  add_json_option(sub, &command->json);
   return sub;
 }
 
 int run_score_command(const ScoreCommand& command) {
+  guard_samples(command.samples).writes("--json", command.json).check();
   FitReport report;
   const std::vector<DriveSamples> drives = read(command.samples);
   report.outputs = score_outputs(drives);

@@ -1,17 +1,19 @@
-/// plumb-train fit: files of samples -> one model file, scores and pictures. The reduce step.
+/// plumb-train fit: turns files of samples into one model file, scores and pictures.
 #pragma once
 
 #include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
+#include "tools/support/report_options.hpp"
+
 namespace plumb {
 
 struct FitCommand {
   std::vector<std::string> samples;
   std::vector<std::string> hold_out;
-  std::string out, start, plots, json;
-  std::string plot_format = "png";
+  std::string out, start;
+  ReportOptions report;
   bool plane_only = false;
   std::string command_line;  ///< for the model's origin
 };
@@ -19,7 +21,7 @@ struct FitCommand {
 CLI::App* add_fit_command(CLI::App* app, FitCommand* command);
 int run_fit_command(const FitCommand& command);
 
-/// plumb-train score: what was reported against the truth, from samples.
+/// plumb-train score: compares the reported values in samples with the truth.
 struct ScoreCommand {
   std::vector<std::string> samples;
   std::string json;

@@ -22,7 +22,7 @@ std::string joined(int argc, char** argv) {
   std::string text = "plumb-train";
   for (int i = 1; i < argc; ++i) {
     const std::string part = argv[i];
-    text += " " + part.substr(part.rfind('/') + 1);  // no paths: they say nothing elsewhere
+    text += " " + part.substr(part.rfind('/') + 1);  // Paths mean nothing on another machine.
   }
   return text;
 }

@@ -4,7 +4,8 @@
 /// Errors are estimate minus truth, of n1 and n3 (components of the unit normal), of ln h, or as
 /// named. The true scale turns [vo] into metres.
 ///
-/// Units  n1, n3 and ln ratios: 1.  A variance has the unit of the error beside it, squared.
+/// Units:
+///   n1, n3 and ln ratios: 1.  A variance has the unit of the error beside it, squared.
 #pragma once
 
 #include <array>

@@ -9,6 +9,7 @@
 #include "modules/datasets/text.hpp"
 #include "modules/vo/vo_wire.hpp"
 #include "platform/config.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/learn/train/sample_file.hpp"
 #include "tools/learn/train/sampler.hpp"
 #include "tools/support/progress.hpp"
@@ -44,7 +45,7 @@ bool run_log(const SampleCommand& command, const PlumbConfig& config, Sampler* s
 }  // namespace
 
 CLI::App* add_sample_command(CLI::App* app, SampleCommand* command) {
-  CLI::App* sub = app->add_subcommand("sample", "one log with truth -> one file of samples");
+  CLI::App* sub = app->add_subcommand("sample", "turn one log with truth into a file of samples");
   sub->add_option("LOG", command->log, "log with CAMERA, CAMERA_CALIBRATION and GROUND_TRUTH")
       ->required();
   sub->add_option("--out", command->out, "file of samples to write")->required();
@@ -53,7 +54,7 @@ CLI::App* add_sample_command(CLI::App* app, SampleCommand* command) {
   sub->add_option("--drive", command->drive, "name of the drive [the log's]");
   sub->add_option("--config", command->config, "TOML configuration");
   sub->add_option("--seed", command->seed, "seed of the random sampling")->capture_default_str();
-  sub->add_flag("--again", command->again, "also when the file is there and newer than the log");
+  sub->add_flag("--again", command->again, "replace a file that is newer than the log");
   return sub;
 }
 
@@ -67,9 +68,15 @@ int run_sample_command(const SampleCommand& command) {
   if (!command.again && fs::exists(command.out, error) &&
       fs::last_write_time(command.out, error) > fs::last_write_time(command.log, error)) {
     (void)read_samples(command.out);
-    std::cout << command.out << " is there already; --again makes it anew\n";
+    std::cout << command.out << " exists already; --again replaces it\n";
     return 0;
   }
+  OverwriteGuard()
+      .reads("LOG", command.log)
+      .reads("--planes", command.planes)
+      .reads("--config", command.config)
+      .writes("--out", command.out)
+      .check();
   PlumbConfig config;
   load_config(command.config, &config);
   samples.algorithm = config.ground_mode == "paper" ? "paper" : config.ground.covariance;

@@ -16,7 +16,7 @@ inline constexpr int kSamplesVersion = 3;
 
 struct DriveSamples {
   std::string drive;      ///< no commas or blanks
-  std::string algorithm;  ///< setting under which it ran: "learned", "fixed" or "paper"
+  std::string algorithm;  ///< setting of the run: "learned", "fixed" or "paper"
   std::vector<Sample> frames;
 };
 
@@ -31,7 +31,7 @@ void write_samples(const DriveSamples& samples, const std::filesystem::path& pat
 [[nodiscard]] std::vector<DriveSamples> read_all_samples(
     const std::vector<std::filesystem::path>& paths);
 
-/// "04_000-050" and the like: not empty, letters, digits and ._-+ only.
+/// Whether the name is not empty and has only letters, digits and ._-+, as "04_000-050" has.
 [[nodiscard]] bool is_drive_name(const std::string& name);
 
 }  // namespace plumb

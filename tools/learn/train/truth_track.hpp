@@ -1,6 +1,9 @@
 /// True poses and planes of a log's images.
 ///
-/// Frames  cam: x right, y down, z forward.  Units  metres.
+/// Frames:
+///   cam: x right, y down, z forward.
+/// Units:
+///   metres.
 #pragma once
 
 #include <cstdint>

@@ -29,7 +29,7 @@ struct VarianceBounds {
   double high_std = 0.0;
 };
 
-/// @pre rows not empty, weights above zero
+/// @pre `rows` is not empty, and weights are above zero.
 [[nodiscard]] LogVariance fit_log_variance(const std::vector<VarianceRow>& rows,
                                            const SlopePrior& prior, const VarianceBounds& bounds);
 

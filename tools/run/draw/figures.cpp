@@ -14,7 +14,7 @@ std::string text_of(const CsvTable& table, std::size_t row, const char* column) 
   return std::string(table.text(row, column).value_or("-"));
 }
 
-/// "name value +- deviation unit", or "name -" while it does not hold.
+/// "name value +- standard deviation unit", or "name -" while the value is not valid.
 std::string figure(const CsvTable& table, std::size_t row, const char* name, const char* column,
                    const char* std_column, double factor, const char* unit) {
   const auto value = table.number(row, column);

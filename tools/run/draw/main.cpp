@@ -1,4 +1,4 @@
-/// plumb-draw: pictures of what the module saw and concluded, from a log and plumb-replay's CSV.
+/// plumb-draw: draws plumb-replay's results onto the images of a log.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,7 +15,9 @@
 #include "modules/camera/image_wire.hpp"
 #include "modules/datasets/text.hpp"
 #include "platform/bounded_decode.hpp"
+#include "platform/command_line.hpp"
 #include "platform/log_file.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/run/draw/figures.hpp"
 #include "tools/support/tool_main.hpp"
 
@@ -32,7 +34,7 @@ struct Options {
   std::string video;
 };
 
-/// Frames spread over the drive, leaving out its very start.
+/// Frames spread evenly over the drive, without its first one.
 std::vector<std::int64_t> spread(const std::map<std::int64_t, FrameFigures>& figures, int count) {
   std::vector<std::int64_t> all, chosen;
   for (const auto& [seq, frame] : figures) all.push_back(seq);
@@ -77,7 +79,7 @@ class Painter {
     const auto figures = figures_.find(frame.seq);
     if ((!wanted && options_.video.empty()) || figures == figures_.end()) return;
     if (decoder_->check(frame) != nullptr || decoder_->decode(frame, &view) != nullptr) return;
-    // OpenCV has no const view; draw_overlay only reads it.
+    // OpenCV has no view of constant pixels; draw_overlay() only reads them.
     const cv::Mat grey(view.height_px, view.width_px, CV_8U, const_cast<std::uint8_t*>(view.data),
                        static_cast<std::size_t>(view.stride_bytes));
     const cv::Mat picture = draw_overlay(grey, camera_, figures->second);
@@ -112,6 +114,12 @@ class Painter {
 };
 
 int run(const Options& options) {
+  OverwriteGuard()
+      .reads("LOG", options.log)
+      .reads("CSV", options.csv)
+      .reads("--objects", options.objects)
+      .writes("--video", options.video)
+      .check();
   Painter painter(options);
   LogReader log(options.log);
   LogEvent event;
@@ -129,7 +137,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   plumb::Options options;
-  CLI::App app("Road grid, horizon, objects and figures drawn onto the frames of a log",
+  CLI::App app("Draws road grid, horizon, objects and figures onto the frames of a log",
                "plumb-draw");
   app.add_option("LOG", options.log, "LCM log with the images")->required();
   app.add_option("CSV", options.csv, "what plumb-replay --csv wrote for it")->required();
@@ -137,8 +145,9 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "folder for the pictures")->required();
   app.add_option("--frames", options.frames, "sequence numbers to draw [spread over the drive]")
       ->delimiter(',');
-  app.add_option("--num-pictures", options.num_pictures, "how many when --frames is not given")
-      ->check(CLI::Range(1, 1000))
+  app.add_option("--num-pictures", options.num_pictures,
+                 "number of pictures when --frames is not given")
+      ->check(plumb::within(1, 1000))
       ->capture_default_str();
   app.add_option("--video", options.video, "also draw every frame into this AVI file");
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(options); });

@@ -17,7 +17,7 @@ const cv::Scalar kPredictedColour(200, 120, 200);
 constexpr double kNearest_m = 4.0;
 constexpr double kNearestPoint_m = 0.5;
 constexpr double kWidestRatio =
-    1.5;  ///< further off the axis, the radial terms fold the image over
+    1.5;  ///< farther off the axis, the radial terms fold the image over
 constexpr double kFarthest_m = 40.0;
 constexpr double kHalfWidth_m = 3.6;
 
@@ -32,7 +32,7 @@ Eigen::Vector3d on_road(const RoadPlane& plane, double right_m, double ahead_m) 
 
 void draw_road_line(cv::Mat* picture, const CameraModel& camera, const Eigen::Vector3d& from,
                     const Eigen::Vector3d& to) {
-  constexpr int kPieces = 24;  // a straight line is bent by the residual radial term
+  constexpr int kPieces = 24;  // The residual radial term bends straight lines.
   cv::Point2d last = to_point(camera.project(from));
   for (int i = 1; i <= kPieces; ++i) {
     const double share = static_cast<double>(i) / kPieces;
@@ -88,7 +88,7 @@ bool is_in_sight(const Eigen::Vector3d& p_cam) {
          p_cam.head<2>().cwiseAbs().maxCoeff() < kWidestRatio * p_cam.z();
 }
 
-/// The part of an edge that is in sight: an object beside the camera is cut by the image's border.
+/// The visible part of an edge. The image's border cuts objects beside the camera.
 void draw_edge(cv::Mat* picture, const CameraModel& camera, const Eigen::Vector3d& from,
                const Eigen::Vector3d& to, const cv::Scalar& colour) {
   constexpr int kPieces = 16;

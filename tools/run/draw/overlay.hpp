@@ -1,6 +1,7 @@
-/// What the module knows, drawn onto the frame it knows it from: road grid, horizon, objects, figures, path.
+/// Draws the results for a frame onto it: road grid, horizon, objects, figures and path.
 ///
-/// Frames  cam: x right, y down, z forward; plane normal points DOWN, n . X = h.
+/// Frames:
+///   cam: x right, y down, z forward. The plane's normal points DOWN: n . X = h.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,9 +29,9 @@ struct ObjectFigure {
 };
 
 struct FrameFigures {
-  std::optional<RoadPlane> plane;       ///< absent while it does not hold
+  std::optional<RoadPlane> plane;       ///< absent while it is not valid
   std::vector<Eigen::Vector2d> path_m;  ///< (x right, z forward) of the world frame, oldest first
-  std::vector<ObjectFigure> objects;    ///< drawn where the plane holds
+  std::vector<ObjectFigure> objects;    ///< drawn where the plane is valid
   std::vector<std::string> lines;       ///< text, top to bottom
 };
 

@@ -78,7 +78,7 @@ class Converter {
     write(frame.capture_us, kCamera, image_);
   }
 
-  /// An image without boxes gets an empty message: the detector looked.
+  /// An image without boxes gets an empty message, as from a detector that found nothing.
   void write_detections(const SequenceFrame& frame) {
     DetectionFrame detections = detections_of_frame(boxes_, static_cast<int>(frame.seq));
     detections.capture_us = frame.capture_us;

@@ -1,5 +1,7 @@
-/// A KITTI sequence into an LCM log: CAMERA_CALIBRATION first and once a second, CAMERA per frame,
-/// GROUND_TRUTH beside it where there is truth, DETECTIONS behind it where there are boxes. Events carry the true
+/// Converts a KITTI sequence to an LCM log.
+///
+/// The log has CAMERA_CALIBRATION at the beginning and once a second, and per frame GROUND_TRUTH
+/// where there is truth, CAMERA, and DETECTIONS where there are boxes. Events carry the true
 /// capture times.
 #pragma once
 
@@ -12,7 +14,7 @@ namespace plumb {
 
 struct ConvertOptions {
   std::filesystem::path out;
-  bool jpeg = false;                      ///< quality 95; else the pixels as they are
+  bool jpeg = false;                      ///< true: JPEG of quality 95; false: plain pixels
   std::filesystem::path detections = {};  ///< KITTI tracking file; empty: none
 };
 
@@ -23,7 +25,7 @@ struct ConvertResult {
   std::int64_t num_detections = 0;
   std::int64_t log_bytes = 0;
   double duration_s = 0.0;
-  bool stopped = false;  ///< by a signal; the log holds the frames up to then
+  bool stopped = false;  ///< by a signal; the log has the frames up to then
 };
 
 /// Shows its progress on stderr. Throws InputError for a bad image and LogError for a log that

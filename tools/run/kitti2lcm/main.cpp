@@ -1,11 +1,12 @@
-/// plumb-kitti2lcm: a KITTI sequence into an LCM log that plays with lcm-logplayer and
-/// plumb-replay.
+/// plumb-kitti2lcm: converts a KITTI sequence to an LCM log for lcm-logplayer and plumb-replay.
 
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
 
 #include "modules/datasets/text.hpp"
+#include "platform/command_line.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/run/kitti2lcm/convert.hpp"
 #include "tools/support/stop_flag.hpp"
 #include "tools/support/tool_main.hpp"
@@ -29,11 +30,11 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
   app->add_option("--out", convert->out, "log to write")->required();
   app->add_option("--camera", sequence->camera,
                   "0 left grey, 1 right grey, 2 left colour, 3 right colour")
-      ->check(CLI::Range(0, 3))
+      ->check(plumb::within(0, 3))
       ->capture_default_str();
   app->add_option("--compress", *compress,
-                  "none: pixels as they are; jpeg: quality 95, about a quarter of the size")
-      ->check(CLI::IsMember({"none", "jpeg"}))
+                  "none: plain pixels; jpeg: quality 95, about a quarter of the size")
+      ->check(plumb::one_of({"none", "jpeg"}))
       ->capture_default_str();
   app->add_option("--poses", sequence->poses,
                   "true poses [SEQ_DIR/poses.txt, or a raw drive's oxts]");
@@ -44,22 +45,36 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
   app->add_option(
          "--residual-k1", sequence->residual_k1,
          "radial term of r^2 left in the rectified images [calib.txt's residual_k1, else 0.0256]")
-      ->check(CLI::Range(-0.2, 0.2));
-  app->add_option("--residual-k2", sequence->residual_k2,
-                  "the same, of r^4 [calib.txt's residual_k2, else -0.0076; 0 beside a stated k1]")
-      ->check(CLI::Range(-0.2, 0.2));
+      ->check(plumb::within(-0.2, 0.2));
+  app->add_option(
+         "--residual-k2", sequence->residual_k2,
+         "radial term of r^4 [calib.txt's residual_k2, else -0.0076; 0 beside a stated k1]")
+      ->check(plumb::within(-0.2, 0.2));
   app->add_option(
          "--camera-height", sequence->camera_height_m,
          "optical centre above the road [calib.txt's camera_height_m, else the configuration's]")
-      ->check(CLI::Range(0.3, 4.0));
-  app->add_option("--readout", sequence->readout_s,
-                  "rolling shutter, first row to last, s [calib.txt's readout_s, else 0]")
-      ->check(CLI::Range(0.0, 0.1));
-  app->add_option("--start", sequence->start, "first frame number")->check(CLI::NonNegativeNumber);
-  app->add_option("--end", sequence->end, "last frame number")->check(CLI::NonNegativeNumber);
+      ->check(plumb::within(0.3, 4.0));
+  app->add_option(
+         "--readout", sequence->readout_s,
+         "readout time of a rolling shutter, first row to last, s [calib.txt's readout_s, else 0]")
+      ->check(plumb::within(0.0, 0.1));
+  app->add_option("--start", sequence->start, "first frame number")->check(plumb::at_least(0));
+  app->add_option("--end", sequence->end, "last frame number")->check(plumb::at_least(0));
+}
+
+void refuse_overwriting(const plumb::SequenceOptions& sequence,
+                        const plumb::ConvertOptions& convert) {
+  plumb::OverwriteGuard()
+      .reads("--poses", sequence.poses)
+      .reads("--planes", sequence.planes)
+      .reads("--detections", convert.detections)
+      .reads_folder("SEQ_DIR", sequence.folder, {".txt", ".png"})
+      .writes("--out", convert.out)
+      .check();
 }
 
 int run(const plumb::SequenceOptions& options, plumb::ConvertOptions convert_options) {
+  refuse_overwriting(options, convert_options);
   plumb::catch_stop_signals();
   const plumb::Sequence sequence = plumb::read_sequence(options);
   const std::filesystem::path labels = options.folder / "label_02.txt";
@@ -84,7 +99,7 @@ int main(int argc, char** argv) {
   plumb::SequenceOptions sequence;
   plumb::ConvertOptions convert;
   std::string compress = "none";
-  CLI::App app("A KITTI sequence into an LCM log", "plumb-kitti2lcm");
+  CLI::App app("Converts a KITTI sequence to an LCM log", "plumb-kitti2lcm");
   add_options(&app, &sequence, &convert, &compress);
   return plumb::tool_main(&app, argc, argv, [&] {
     convert.jpeg = compress == "jpeg";

@@ -1,4 +1,5 @@
-/// One row of a CSV file, or its header: cells are added under the names that the header lists in the same order.
+/// Builds one row of a CSV file, or its header, which lists the names of the cells in the same
+/// order.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@ class CsvRow {
     cell(name, value);
   }
   void add(const std::string& name, std::int64_t value) { cell(name, std::to_string(value)); }
-  /// Empty when the value does not hold or is not finite.
+  /// Adds an empty cell when the value is not valid or not finite.
   void add(const std::string& name, double value, bool holds = true) {
     char text[32] = "";
     if (holds && std::isfinite(value))
@@ -42,7 +43,7 @@ class CsvRow {
   std::string text_;
 };
 
-/// Standard deviation; NaN, an empty cell, when the variance does not hold.
+/// The standard deviation; NaN, which gives an empty cell, when the variance is not valid.
 inline double deviation(double variance) { return variance >= 0.0 ? std::sqrt(variance) : kNan; }
 
 }  // namespace plumb

@@ -1,5 +1,5 @@
-/// plumb-replay: a log through vo, ground, objects and can in one process; poses, one line per frame and per object,
-/// CAN trace.
+/// plumb-replay: runs a log through vo, ground, objects and can in one process and writes poses, a
+/// table of frames, a table of objects and a CAN trace.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "platform/config.hpp"
 #include "platform/log.hpp"
 #include "platform/log_file.hpp"
+#include "platform/overwrite_guard.hpp"
 #include "tools/run/replay/frame_csv.hpp"
 #include "tools/run/replay/objects_csv.hpp"
 #include "tools/run/replay/pose_track.hpp"
@@ -28,8 +29,9 @@ namespace plumb {
 namespace {
 
 constexpr const char* kFooter =
-    R"(The same log, configuration and seed give the same poses, CAN trace and CSV, bit for bit; --no-times leaves out
-the CSV's stage times, which differ. A damaged log is read as far as it is sound, said so, and exits with 2.
+    R"(The same log, configuration and seed give the same poses, CAN trace and CSV, bit for bit. Only the stage times
+in the CSV differ; --no-times leaves them out. Of a damaged log, everything intact is read; each damaged place is
+reported, and the exit code is 2.
 
 Examples
   plumb-replay 05.lcm --poses 05.txt --csv 05.csv --can 05.can
@@ -93,7 +95,7 @@ class Outputs {
   StatusCount statuses_;
 };
 
-/// What reading and processing the log took.
+/// The time that it took to read and process the log.
 struct Effort {
   double wall_s = 0.0;
   double cpu_s = 0.0;
@@ -134,7 +136,7 @@ void print_summary(const Arguments& arguments, const Chain& replay, const Output
   }
 }
 
-/// What was wrong with the log, a line each on stderr. True when there was anything.
+/// Prints a line on stderr for everything that was wrong with the log. True when anything was.
 bool report_trouble(const std::string& log, const LogReader& reader, const Chain& replay) {
   for (const std::string& problem : reader.problems())
     std::cerr << "plumb-replay: " << problem << "\n";
@@ -149,7 +151,19 @@ bool report_trouble(const std::string& log, const LogReader& reader, const Chain
   return reader.num_problems() > 0 || replay.num_frames() == 0 || replay.num_refused() > 0;
 }
 
+void refuse_overwriting(const Arguments& arguments) {
+  OverwriteGuard()
+      .reads("LOG", arguments.log)
+      .reads("--config", arguments.config)
+      .writes("--poses", arguments.poses)
+      .writes("--csv", arguments.csv)
+      .writes("--objects", arguments.objects)
+      .writes("--can", arguments.can)
+      .check();
+}
+
 int run(const Arguments& arguments) {
+  refuse_overwriting(arguments);
   PlumbConfig config;
   load_config(arguments.config, &config);
   LogReader reader(arguments.log);
@@ -185,7 +199,7 @@ void add_options(CLI::App* app, Arguments* arguments) {
 int main(int argc, char** argv) {
   plumb::set_log_name("plumb-replay");
   plumb::Arguments arguments;
-  CLI::App app("A log through vo, ground, objects and can in one process", "plumb-replay");
+  CLI::App app("Runs a log through vo, ground, objects and can in one process", "plumb-replay");
   plumb::add_options(&app, &arguments);
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
 }

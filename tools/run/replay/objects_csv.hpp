@@ -1,4 +1,5 @@
-/// One line of text per object and image that was searched. Cells that do not hold are empty.
+/// Rows of the table of objects: one per object and image that was searched. Cells without a valid
+/// value are empty.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// The integrated pose of every image as rows of a KITTI pose file.
+/// Turns the integrated poses of images into rows of a KITTI pose file.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace plumb {
 
-/// One row per image. An image without a valid pose repeats the row before it; before the first
-/// valid one that is the identity.
+/// One row per image. An image without a valid pose repeats the row before it. Before the first
+/// valid pose, rows are the identity.
 class PoseTrack {
  public:
   /// `ego` may be null. Returns the row.

@@ -1,4 +1,4 @@
-/// What plumb-replay prints at the end: how often each status came, and where the time went.
+/// The summary that plumb-replay prints at the end: statuses, mount and times.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace plumb {
 class StatusCount {
  public:
   void add(const FrameRecord& record);
-  /// "vo     370 ok, 6 initializing, 1 standstill", a line each for vo, plane and ego.
+  /// Lines such as "vo     370 ok, 6 initializing, 1 standstill" for vo, plane and ego.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -22,7 +22,7 @@ class StatusCount {
   int num_refused_ = 0;
 };
 
-/// What the mount check found, in one line.
+/// The result of the mount check in one line.
 [[nodiscard]] std::string mount_text(const MountReport& report);
 
 /// Table of the stages of `program`: frames, median, 99th percentile and maximum in milliseconds.

@@ -1,4 +1,4 @@
-/// A text file that is written row by row and says at once when it cannot be.
+/// Writes a text file row by row and reports failures at once.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace plumb {
 
 class TextOutput {
  public:
-  /// An empty path makes an output that takes everything and writes nothing. Throws InputError.
+  /// With an empty path, the output takes rows and writes nothing. Throws InputError.
   explicit TextOutput(const std::filesystem::path& path);
   /// Throws InputError ("cannot write FILE"), for example on a full disk.
   void row(const std::string& text);

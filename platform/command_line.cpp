@@ -1,0 +1,138 @@
+#include "platform/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <limits>
+#include <optional>
+
+#include "platform/nearest_word.hpp"
+#include "platform/version.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr int kExitOk = 0;
+constexpr int kExitMachine = 1;
+constexpr int kExitRefused = 2;
+
+/// The subcommand that was given, else the program itself.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? app : innermost(*parsed.back());
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// What is wrong with the first word that no option or argument took; empty when all were taken.
+std::string unknown_word(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  if (words.empty()) return {};
+  const CLI::App& command = innermost(app);
+  const auto is_option = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
+  const auto option = std::find_if(words.begin(), words.end(), is_option);
+  if (option != words.end()) {
+    const std::string name = option->substr(0, option->find('='));
+    const std::string dashed =
+        "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
+    return "unknown option " + name + did_you_mean(dashed, option_names(command));
+  }
+  const std::vector<std::string> commands = command_names(command);
+  if (commands.empty()) return "unexpected argument " + words.front();
+  return "unknown command " + words.front() + did_you_mean(words.front(), commands);
+}
+
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (error != std::errc{} || end != last) return {};
+  return value;
+}
+
+/// CLI11's message in a whole sentence, where it has none.
+std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
+  // What is missing may be misspelt: an unknown option explains more than a missing one.
+  const std::string unknown = unknown_word(app);
+  if (!unknown.empty()) return unknown;
+  const std::string text = error.what();
+  const std::string name = text.substr(0, text.find(':'));
+  if (error.get_name() == "ArgumentMismatch" && name.size() < text.size()) {
+    return name + " wants a value";
+  }
+  const std::string unconverted = "Could not convert: ";
+  if (text.rfind(unconverted, 0) == 0) {
+    const std::size_t equals = text.find(" = ");
+    const std::string value = text.substr(equals + 3);
+    return text.substr(unconverted.size(), equals - unconverted.size()) + ": " + value +
+           (number_in(value) ? " is not a whole number in range" : " is not a number");
+  }
+  return text;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", value);
+  return text;
+}
+
+}  // namespace
+
+int parse_command_line(CLI::App& app, const char* program, int argc, char** argv) {
+  app.set_version_flag("--version", std::string(program) + " " + plumb_version());
+  try {
+    app.parse(argc, argv);
+    return -1;
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success) == 0 ? kExitOk : kExitMachine;
+  } catch (const CLI::ParseError& error) {
+    const std::string what = sentence(app, error);
+    const bool complete = what.back() == '?';
+    std::fprintf(stderr, "%s: %s%s\n", program, what.c_str(),
+                 complete ? "" : " (--help lists the options)");
+    return kExitRefused;
+  }
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const std::string shown = "{" + word_list(words) + "}";
+  return {[words = std::move(words)](const std::string& text) -> std::string {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+            return text + " is none of " + word_list(words) + did_you_mean(text, words);
+          },
+          shown};
+}
+
+CLI::Validator within(double low, double high) {
+  const std::string range = "[" + short_number(low) + ", " + short_number(high) + "]";
+  return {[low, high, range](const std::string& text) -> std::string {
+            const std::optional<double> value = number_in(text);
+            if (!value) return text + " is not a number";
+            return *value >= low && *value <= high ? "" : text + " is outside " + range;
+          },
+          "in " + range};
+}
+
+CLI::Validator at_least(double low) {
+  return {[low](const std::string& text) -> std::string {
+            const std::optional<double> value = number_in(text);
+            if (!value) return text + " is not a number";
+            return *value >= low ? "" : text + " is below " + short_number(low);
+          },
+          ">= " + short_number(low)};
+}
+
+}  // namespace plumb
