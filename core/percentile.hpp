@@ -1,4 +1,7 @@
-/// Order statistics of a few values, without sorting all of them.
+/// Order statistics by partial sorting (std::nth_element), in linear time on average.
+///
+/// Memory:
+///   Nothing is allocated. The values are reordered in place.
 #pragma once
 
 #include <algorithm>
@@ -7,16 +10,18 @@
 
 namespace plumb {
 
-/// The value below which about `share` of `values` lie. It reorders `values`.
-/// @pre values is not empty, 0 <= share <= 1
-[[nodiscard]] inline double percentile(std::vector<double>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+/// Returns the `fraction` quantile, e.g. 0.8 for the 80th percentile. It is the element at the
+/// sorted position fraction (n - 1), rounded down; nothing is interpolated.
+/// @pre values is not empty, 0 <= fraction <= 1
+[[nodiscard]] inline double percentile(std::vector<double>& values, double fraction) {
+  const auto position =
+      static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  const auto nth = values.begin() + position;
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
 }
 
-/// The median; the upper one of the two middle values when their number is even. It reorders `values`.
+/// Returns the median. Of an even number of values it is the upper one of the two in the middle.
 /// @pre values is not empty
 [[nodiscard]] inline double upper_median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

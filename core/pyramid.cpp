@@ -6,7 +6,7 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t kRowAlignment = 32;
-constexpr std::size_t kTailBytes = 64;  // vector loads may read past the last pixel
+constexpr std::size_t kTailBytes = 64;  // vector loads may read beyond the last pixel
 
 void halve(const ImageView& from, std::uint8_t* to, const ImageView& shape) {
   for (int v = 0; v < shape.height_px; ++v) {

@@ -1,6 +1,8 @@
-/// Eight numbers at once, in the compiler's own vector type: one source for AVX2, NEON and plain code.
+/// Vectors of eight numbers in the compiler's own vector types. The same source compiles to AVX2,
+/// to NEON and to scalar code.
 ///
-/// Sums over the lanes are taken in a fixed order, so results do not depend on the machine's vector width.
+/// The lanes are summed in a fixed order, so that results do not depend on the width of the
+/// machine's vector registers.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +11,8 @@
 #include <immintrin.h>
 #endif
 
-// Vectors are only passed between inlined functions here, so the ABI note does not apply.
+// GCC warns that the calling convention for these vectors depends on the target. All functions that
+// take or return them are inlined, so the warning does not apply.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace plumb {
@@ -18,10 +21,10 @@ inline constexpr int kNumLanes = 8;
 using Float8 = float __attribute__((vector_size(kNumLanes * sizeof(float))));
 using Int8 = std::int32_t __attribute__((vector_size(kNumLanes * sizeof(std::int32_t))));
 
-/// The eight bytes at `p` as floats.
+/// Loads eight bytes from `p` and converts them to floats.
 [[gnu::always_inline]] inline Float8 load_bytes(const std::uint8_t* p) {
 #if defined(__AVX2__)
-  // GCC 12 turns the portable form below into eight scalar conversions.
+  // GCC 12 compiles the portable form below to eight scalar conversions.
   std::int64_t bytes;
   std::memcpy(&bytes, p, sizeof bytes);
   return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_cvtsi64_si128(bytes)));
@@ -32,25 +35,26 @@ using Int8 = std::int32_t __attribute__((vector_size(kNumLanes * sizeof(std::int
 #endif
 }
 
-/// The eight floats at `p`; no alignment needed.
+/// Loads eight floats from `p`, which may have any alignment.
 [[gnu::always_inline]] inline Float8 load_floats(const float* p) {
   Float8 v;
   std::memcpy(&v, p, sizeof v);
   return v;
 }
 
+/// Stores eight floats to `p`, which may have any alignment.
 [[gnu::always_inline]] inline void store_floats(const Float8& v, float* p) {
   std::memcpy(p, &v, sizeof v);
 }
 
-/// Sum of the lanes in single precision.
+/// Sums the lanes in single precision.
 [[gnu::always_inline]] inline float sum_float(const Float8& v) {
   const float low = (v[0] + v[4]) + (v[2] + v[6]);
   const float high = (v[1] + v[5]) + (v[3] + v[7]);
   return low + high;
 }
 
-/// Sum of the lanes in double precision.
+/// Sums the lanes in double precision.
 [[nodiscard]] inline double sum_double(const Float8& v) {
   const double s04 = static_cast<double>(v[0]) + static_cast<double>(v[4]);
   const double s15 = static_cast<double>(v[1]) + static_cast<double>(v[5]);

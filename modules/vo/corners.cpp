@@ -6,16 +6,16 @@
 namespace plumb::vo {
 namespace {
 
-/// Place in a buffer. An image has at most 2^26 pixels: int holds every product of its sides.
-constexpr std::size_t place(int i) { return static_cast<std::size_t>(i); }
+/// Converts an index into a buffer. An image has at most 2^26 pixels, so that int is large enough.
+constexpr std::size_t to_index(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int kCornerBorderPx = 6;
-constexpr int kBoxHalf = 2;  // structure tensor over 5 x 5
-constexpr int kMaskStep = 2;
-constexpr int kMaskReach = 2;  // blocks kept free around a taken point
+constexpr int kBoxHalf = 2;    // the structure tensor is a mean over 5 x 5 pixels
+constexpr int kMaskStep = 2;   // size of a block [px]
+constexpr int kMaskReach = 2;  // number of blocks around a point that are occupied
 constexpr double kRoadThresholdRatio = 0.15;
 
-// Sobel gradients of one row, grey per pixel, and their products.
+// Computes the products of the Sobel gradients [grey/px] along one row.
 void products(const ImageView& image, int u0, int v, int n, float* __restrict xx,
               float* __restrict xy, float* __restrict yy) {
   const std::uint8_t* __restrict a = image.row(v - 1) + u0;
@@ -32,7 +32,7 @@ void products(const ImageView& image, int u0, int v, int n, float* __restrict xx
   }
 }
 
-// Sums over 2 kBoxHalf + 1 rows; the sums along rows follow when scores are needed.
+// Sums 2 kBoxHalf + 1 rows. best_in() sums along the rows.
 void box_row(const float* __restrict in, int pitch, int n, float* __restrict out) {
   for (int i = 0; i < n; ++i) {
     out[i] = in[i] + in[i + pitch] + in[i + 2 * pitch] + in[i + 3 * pitch] + in[i + 4 * pitch];
@@ -47,12 +47,12 @@ CornerDetector::CornerDetector(int width_px, int height_px, int max_corners)
   columns_ = std::max(1, static_cast<int>(width_px / side));
   rows_ = std::max(1, static_cast<int>(height_px / side));
   pitch_ = width_px / columns_ + 2 * kBoxHalf + 16;
-  const auto buffer = place(pitch_ * (height_px / rows_ + 2 * kBoxHalf + 8));
-  cell_taken_.resize(place(columns_ * rows_));
+  const auto buffer = to_index(pitch_ * (height_px / rows_ + 2 * kBoxHalf + 8));
+  cell_occupied_.resize(to_index(columns_ * rows_));
   mask_width_ = width_px / kMaskStep + 1;
-  mask_.resize(place(mask_width_ * (height_px / kMaskStep + 1)));
+  mask_.resize(to_index(mask_width_ * (height_px / kMaskStep + 1)));
   for (auto* v : {&xx_, &xy_, &yy_, &sum_xx_, &sum_xy_, &sum_yy_}) v->resize(buffer);
-  found_.reserve(cell_taken_.size());
+  found_.reserve(cell_occupied_.size());
 }
 
 CornerDetector::Cell CornerDetector::cell(int column, int row) const {
@@ -63,40 +63,43 @@ CornerDetector::Cell CornerDetector::cell(int column, int row) const {
 }
 
 void CornerDetector::clear() {
-  std::fill(cell_taken_.begin(), cell_taken_.end(), static_cast<unsigned char>(0));
+  std::fill(cell_occupied_.begin(), cell_occupied_.end(), static_cast<unsigned char>(0));
   std::fill(mask_.begin(), mask_.end(), static_cast<unsigned char>(0));
 }
 
-void CornerDetector::take(const Eigen::Vector2d& px) {
+void CornerDetector::occupy(const Eigen::Vector2d& px) {
   const int u = std::clamp(static_cast<int>(px.x()), 0, width_px_ - 1);
   const int v = std::clamp(static_cast<int>(px.y()), 0, height_px_ - 1);
   const int column = std::min(columns_ - 1, u * columns_ / width_px_);
   const int row = std::min(rows_ - 1, v * rows_ / height_px_);
-  cell_taken_[place(row * columns_ + column)] = 1;
+  cell_occupied_[to_index(row * columns_ + column)] = 1;
   const int last_v = height_px_ / kMaskStep;
   for (int j = v / kMaskStep - kMaskReach; j <= v / kMaskStep + kMaskReach; ++j) {
     for (int i = u / kMaskStep - kMaskReach; i <= u / kMaskStep + kMaskReach; ++i) {
       if (i < 0 || j < 0 || i >= mask_width_ || j > last_v) continue;
-      mask_[place(j * mask_width_ + i)] = 1;
+      mask_[to_index(j * mask_width_ + i)] = 1;
     }
   }
 }
 
+// Computes the products of the gradients in a cell and their sums over the rows of the boxes.
 void CornerDetector::tensor_rows(const ImageView& image, const Cell& c) {
   const int n = c.u1 - c.u0 + 2 * kBoxHalf;
   const int m = c.v1 - c.v0 + 2 * kBoxHalf;
   for (int j = 0; j < m; ++j) {
-    const auto at = place(j * pitch_);
+    const auto at = to_index(j * pitch_);
     products(image, c.u0 - kBoxHalf, c.v0 - kBoxHalf + j, n, &xx_[at], &xy_[at], &yy_[at]);
   }
   for (int j = 0; j + 2 * kBoxHalf < m; ++j) {
-    const auto at = place(j * pitch_);
+    const auto at = to_index(j * pitch_);
     box_row(&xx_[at], pitch_, n, &sum_xx_[at]);
     box_row(&xy_[at], pitch_, n, &sum_xy_[at]);
     box_row(&yy_[at], pitch_, n, &sum_yy_[at]);
   }
 }
 
+// Finds the pixel with the largest corner measure in a cell. Returns false when none exceeds the
+// threshold.
 bool CornerDetector::best_in(const Cell& c, float threshold, Eigen::Vector2d* px) const {
   constexpr float kMean = 1.0F / 25.0F;
   float best = threshold;
@@ -107,7 +110,7 @@ bool CornerDetector::best_in(const Cell& c, float threshold, Eigen::Vector2d* px
   float score[512];
   const int n = std::min(c.u1 - c.u0, 512);
   for (int v = c.v0; v < c.v1; ++v) {
-    const auto at = place((v - c.v0) * pitch_);
+    const auto at = to_index((v - c.v0) * pitch_);
     const float* sxx = &sum_xx_[at];
     const float* sxy = &sum_xy_[at];
     const float* syy = &sum_yy_[at];
@@ -117,7 +120,7 @@ bool CornerDetector::best_in(const Cell& c, float threshold, Eigen::Vector2d* px
       const float yy = along(syy, i);
       score[i] = 0.5F * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4.0F * xy * xy));
     }
-    const auto mask_row = place(v / kMaskStep * mask_width_);
+    const auto mask_row = to_index(v / kMaskStep * mask_width_);
     for (int i = 0; i < n; ++i) {
       if (score[i] <= best) continue;
       if (mask_[mask_row + static_cast<std::size_t>((c.u0 + i) / kMaskStep)] != 0) continue;
@@ -134,7 +137,7 @@ const std::vector<Eigen::Vector2d>& CornerDetector::detect(const ImageView& imag
   found_.clear();
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      if (cell_taken_[place(row * columns_ + column)] != 0) continue;
+      if (cell_occupied_[to_index(row * columns_ + column)] != 0) continue;
       const Cell c = cell(column, row);
       if (c.u1 <= c.u0 || c.v1 <= c.v0) continue;
       tensor_rows(image, c);
@@ -143,7 +146,7 @@ const std::vector<Eigen::Vector2d>& CornerDetector::detect(const ImageView& imag
       Eigen::Vector2d px;
       if (!best_in(c, static_cast<float>(threshold), &px)) continue;
       found_.push_back(px);
-      take(px);
+      occupy(px);
     }
   }
   return found_;

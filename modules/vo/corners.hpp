@@ -1,4 +1,12 @@
-/// Shi-Tomasi corners, one per empty cell of a grid.
+/// Detection of corners (Shi & Tomasi, "Good Features to Track", 1994), one per cell of a grid.
+///
+/// Frames:
+///   img, of the image that is passed to detect().
+/// Units:
+///   Pixels. The corner measure is the smaller eigenvalue of the mean structure tensor,
+///   grey^2/px^2.
+/// Memory:
+///   Buffers for one cell and masks for the image, allocated by the constructor.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,20 +17,21 @@
 namespace plumb::vo {
 
 struct CornerOptions {
-  double min_corner_grey2 = 2.5;  ///< smaller eigenvalue of the mean structure tensor
-  double horizon_px = 0.0;        ///< below it the threshold is lower: roads have little contrast
+  double min_corner_grey2 = 2.5;  ///< threshold of the corner measure
+  double horizon_px = 0.0;        ///< row below which the threshold is lower, as on a road
 };
 
 class CornerDetector {
  public:
-  /// Cells are sized so that about `max_corners` fit the image.
+  /// Divides the image into about `max_corners` cells.
   CornerDetector(int width_px, int height_px, int max_corners);
 
-  /// Forgets what is taken.
+  /// Makes all cells free.
   void clear();
-  /// Keeps new corners out of the cell and the surroundings of `px`.
-  void take(const Eigen::Vector2d& px);
-  /// The best corner of each cell that nothing has taken. Valid until the next call.
+  /// Marks the cell and the surroundings of `px` as occupied.
+  void occupy(const Eigen::Vector2d& px);
+  /// Returns the best corner of every free cell, outside the surroundings of others. The cells are
+  /// occupied then. The result is valid until the next call.
   const std::vector<Eigen::Vector2d>& detect(const ImageView& image, const CornerOptions& options);
 
  private:
@@ -37,12 +46,12 @@ class CornerDetector {
   int height_px_;
   int columns_;
   int rows_;
-  int pitch_;  // of the tensor buffers
-  std::vector<unsigned char> cell_taken_;
+  int pitch_;  // length of a row in the buffers
+  std::vector<unsigned char> cell_occupied_;
   int mask_width_;
-  std::vector<unsigned char> mask_;  // in blocks of pixels
-  std::vector<float> xx_, xy_, yy_;  // products of gradients, then their box means
-  std::vector<float> sum_xx_, sum_xy_, sum_yy_;
+  std::vector<unsigned char> mask_;              // occupied surroundings, in blocks of pixels
+  std::vector<float> xx_, xy_, yy_;              // products of the gradients
+  std::vector<float> sum_xx_, sum_xy_, sum_yy_;  // sums of the products over the rows of a box
   std::vector<Eigen::Vector2d> found_;
 };
 

@@ -8,8 +8,8 @@
 namespace plumb::vo {
 namespace {
 
-// Polynomials in (x, y, z) up to degree 3. Monomial order: the ten cubics, then
-// x2 xy xz y2 yz z2 x y z 1, which is the basis of the quotient ring.
+// Polynomials in (x, y, z) up to degree 3. The monomials are the ten cubic ones, then
+// x2 xy xz y2 yz z2 x y z 1, which are the basis of the quotient ring.
 struct Exponents {
   int x, y, z;
 };
@@ -21,6 +21,7 @@ constexpr std::array<Exponents, kNumMonomials> kMonomials{
 constexpr int kFirstLinear = 16;
 constexpr int kFirstQuadratic = 10;
 
+// Index of the product of two monomials, -1 when its degree exceeds 3.
 constexpr std::array<std::array<int, kNumMonomials>, kNumMonomials> product_table() {
   std::array<std::array<int, kNumMonomials>, kNumMonomials> table{};
   for (std::size_t a = 0; a < kNumMonomials; ++a) {
@@ -42,7 +43,7 @@ constexpr auto kProduct = product_table();
 using Polynomial = Eigen::Matrix<double, 1, kNumMonomials>;
 using PolynomialMatrix = std::array<std::array<Polynomial, 3>, 3>;
 
-// a has terms from `first_a` on; b is linear.
+// Multiplies `a`, whose terms begin at `first_a`, by the linear `b`.
 Polynomial multiply(const Polynomial& a, int first_a, const Polynomial& b) {
   Polynomial out = Polynomial::Zero();
   for (int i = first_a; i < kNumMonomials; ++i) {
@@ -53,6 +54,7 @@ Polynomial multiply(const Polynomial& a, int first_a, const Polynomial& b) {
   return out;
 }
 
+// Returns E1 to E4, row by row, as columns.
 Eigen::Matrix<double, 9, 4> null_space(const std::array<RayPair, 5>& pairs) {
   Eigen::Matrix<double, 9, 5> A;
   for (int i = 0; i < 5; ++i) {
@@ -69,6 +71,7 @@ Eigen::Matrix<double, 9, 4> null_space(const std::array<RayPair, 5>& pairs) {
   return Q.rightCols<4>();
 }
 
+// Returns the coefficients of the ten cubic equations.
 Eigen::Matrix<double, 10, kNumMonomials> constraints(const PolynomialMatrix& E) {
   PolynomialMatrix EEt;
   Polynomial trace = Polynomial::Zero();
@@ -92,7 +95,7 @@ Eigen::Matrix<double, 10, kNumMonomials> constraints(const PolynomialMatrix& E) 
     }
   }
   Polynomial det = Polynomial::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {  // along the first row
+  for (std::size_t k = 0; k < 3; ++k) {  // Laplace expansion along the first row
     const std::size_t a = (k + 1) % 3;
     const std::size_t b = (k + 2) % 3;
     const Polynomial minor =

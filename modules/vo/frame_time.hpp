@@ -1,14 +1,14 @@
+/// Number and time of an image relative to the previous one.
 #pragma once
 
 #include <cstdint>
 
 namespace plumb::vo {
 
-/// Number and time of the image in hand, against the image before it.
 struct FrameTime {
-  std::int64_t seq = 0;
-  std::int64_t prev_seq = -1;  ///< -1 for the first image
-  double dt_s = 0.0;           ///< since the image before; 0 for the first image
+  std::int64_t seq = 0;        ///< number of the image
+  std::int64_t prev_seq = -1;  ///< number of the previous image; -1 for the first image
+  double dt_s = 0.0;           ///< time since the previous image; 0 for the first image
 };
 
 }  // namespace plumb::vo

@@ -24,7 +24,7 @@ ImageLevels measure_levels(const ImageView& image) {
   for (int v = 0; v < image.height_px; v += kRowStep) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t s = 0;
-    std::uint32_t ss = 0;  // 255^2 x width < 2^32 up to 66000 columns
+    std::uint32_t ss = 0;  // sufficient for 66000 columns: 255^2 x 66000 < 2^32
     for (int u = 0; u < image.width_px; ++u) {
       const std::uint32_t p = row[u];
       s += p;

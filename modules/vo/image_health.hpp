@@ -1,4 +1,4 @@
-/// Whether an image can be used at all.
+/// Checks whether an image shows anything that can be tracked.
 #pragma once
 
 #include "core/image_view.hpp"
@@ -11,11 +11,12 @@ struct ImageLevels {
   double std_grey = 0.0;
 };
 
-/// Mean and deviation over every fourth row.
+/// Measures mean and standard deviation of the grey values of every fourth row.
 [[nodiscard]] ImageLevels measure_levels(const ImageView& image);
 
-/// kNone, kImageDark, kImageFlat or kImageFrozen. Sensor noise makes two images of a standing car differ, so an
-/// identical one was never taken. `previous` may be empty.
+/// Returns kNone for a usable image, else kImageDark, kImageFlat or kImageFrozen. Sensor noise
+/// makes any two images differ, also at a standstill. An image that is identical to the previous
+/// one was therefore not taken by a sensor. `previous` may be empty.
 [[nodiscard]] VoReason judge_image(const ImageView& image, const ImageView& previous,
                                    const VoConfig& config);
 

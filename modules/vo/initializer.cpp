@@ -10,27 +10,33 @@
 namespace plumb::vo {
 namespace {
 
+// With fewer tracks than these, the reference is given up.
 constexpr int kMinTracks = 40;
-constexpr double kMinSurvivors = 0.4;
-constexpr double kLeastFlowPx = 3.0;         // when waiting for more would lose the tracks
-constexpr double kMinStartParallaxPx = 2.0;  // left by the best rotation
+constexpr double kMinSurvivors = 0.4;  // as a share of the tracks at the reference
+// Median flow that is enough when waiting for more would lose the tracks.
+constexpr double kUrgentFlowPx = 3.0;
+// Median residual of the best rotation, below which there is too little translation.
+constexpr double kMinStartParallaxPx = 2.0;
 constexpr double kMinStartInlierRatio = 0.5;
-constexpr double kStandingFlowPx = 0.35;
-constexpr double kStandingShare = 0.7;
-constexpr int kDepthIterations = 15;
+constexpr double kStandstillFlowPx = 0.35;
+constexpr double kStandstillPercentile = 0.7;
+constexpr int kTriangulationIterations = 15;
 constexpr int kStartIterations = 30;
+// Model of the speed while nothing is measured.
 constexpr double kSpeedStdRatio = 0.03;
-constexpr double kCarriedAccelerationStd = 1.5;  // [vo]/s^2
-constexpr double kAccelerationTime = 1.0;  // a driver keeps an acceleration for about this long [s]
+constexpr double kCarriedAccelerationStd = 1.5;    // [vo]/s^2
+constexpr double kAccelerationCorrelationS = 1.0;  // a driver keeps an acceleration this long
 
-/// 1-sigma of ln(speed now / speed when last measured). It grows with the time at first and with its square root later.
-double carried_std(double measured_speed, double unseen_s) {
-  const double wander =
-      kCarriedAccelerationStd * unseen_s / std::sqrt(1.0 + unseen_s / kAccelerationTime);
-  return std::hypot(kSpeedStdRatio, wander / std::max(measured_speed, 1e-3));
+/// Returns the standard deviation of ln(speed now / speed when last measured). It grows with the
+/// time at first and with its square root later, because accelerations are correlated for a while.
+double speed_carry_std(double measured_speed, double unseen_s) {
+  const double change_std =
+      kCarriedAccelerationStd * unseen_s / std::sqrt(1.0 + unseen_s / kAccelerationCorrelationS);
+  return std::hypot(kSpeedStdRatio, change_std / std::max(measured_speed, 1e-3));
 }
 
-/// Pose of the frame before the newest one; of the newest one when it is alone.
+/// Returns the pose of the frame before the newest one, or of the newest one when there is no
+/// other.
 Se3 previous_pose(const LocalMap& map) {
   const Window& window = map.window;
   return window.num_history() > 1 ? window.past_pose(window.history()[1])
@@ -53,14 +59,16 @@ void Initializer::begin(const FrameTime& time, LocalMap& map, VoOutput* out) {
   out->reason = VoReason::kFirstFrame;
 }
 
+/// Starts tracks in `image` and drops all older frames and tracks.
 void Initializer::set_reference(std::int64_t seq, const Se3& T_cam_world, const Pyramid& image,
                                 LocalMap& map, VoOutput* out) {
   out->num_new = map.start_reference(seq, T_cam_world, image);
   num_at_reference_ = out->num_new;
   predicted_distance_ = 0.0;
-  phase_ = Phase::kWaiting;
+  phase_ = Phase::kTracking;
 }
 
+/// Tracks the reference's tracks into the newest image.
 void Initializer::track_reference(const FrameTime& time, const Se3& T_predicted, LocalMap& map,
                                   const MotionPredictor& motion, VoOutput* out) {
   map.tracker.begin(map.tracks, time.dt_s);
@@ -81,11 +89,12 @@ void Initializer::update(const FrameTime& time, LocalMap& map, MotionPredictor& 
   probe.mark("track");
   const int num_found = out->num_tracked;
   const bool enough = num_found >= std::max(1.0 * kMinTracks, kMinSurvivors * num_at_reference_);
-  if (enough && stands(time, map)) {
+  if (enough && detect_standstill(time, map)) {
     out->status = VoStatus::kStandstill;
     return;
   }
-  // The first search knows no motion and misses what is near: its finds are the measure for those that follow.
+  // Without a predicted motion, the first search misses near points. Later numbers of tracks are
+  // therefore compared with what it found.
   const bool first = map.window.order().size() == 1;
   if (first) num_at_reference_ = num_found;
   if (num_found >= kMinTracks) {
@@ -93,20 +102,21 @@ void Initializer::update(const FrameTime& time, LocalMap& map, MotionPredictor& 
       map.keyframes.remove_frame(map.window.order()[1], map.tracks, map.window);
     }
     static_cast<void>(map.add_frame(time.seq, T_predicted));
-    // With too few tracks left to go on, this image is the last one that can solve the two views.
-    const double least_flow_px = enough ? config_.start_flow_px : kLeastFlowPx;
-    const bool started = try_two_views(time, least_flow_px, map, motion, out);
+    // When too few tracks are left to continue, this image is the last chance to solve the two
+    // views.
+    const double min_flow_px = enough ? config_.start_flow_px : kUrgentFlowPx;
+    const bool started = try_two_views(time, min_flow_px, map, motion, out);
     probe.mark("start");
     if (started) return;
     if (enough || first) {
       map.keep_image(T_predicted);
-      wait(time, VoReason::kLowParallax, motion, out);
+      report_unsolved(time, VoReason::kLowParallax, motion, out);
       return;
     }
   }
   set_reference(time.seq, T_predicted, map.newest_image(), map, out);
   map.keep_image(T_predicted);
-  wait(time, VoReason::kTooFewFeatures, motion, out);
+  report_unsolved(time, VoReason::kTooFewFeatures, motion, out);
 }
 
 void Initializer::restart(const FrameTime& time, LocalMap& map, MotionPredictor& motion,
@@ -132,13 +142,14 @@ void Initializer::restart(const FrameTime& time, LocalMap& map, MotionPredictor&
   }
   set_reference(time.seq, T_predicted, map.newest_image(), map, out);
   map.keep_image(T_predicted);
-  wait(time, reason, motion, out);
+  report_unsolved(time, reason, motion, out);
   probe.mark("start");
 }
 
-/// Nothing is solved yet. With a speed from before a loss the motion is predicted, otherwise it is unknown.
-void Initializer::wait(const FrameTime& time, VoReason reason, MotionPredictor& motion,
-                       VoOutput* out) const {
+/// Reports that the two views are not solved yet. After a failure of tracking, the motion is
+/// predicted for as long as the prediction is valid. At the start it is unknown.
+void Initializer::report_unsolved(const FrameTime& time, VoReason reason, MotionPredictor& motion,
+                                  VoOutput* out) const {
   out->reason = reason;
   out->status = restarting_ ? VoStatus::kLost : VoStatus::kInitializing;
   if (!restarting_) return;
@@ -148,26 +159,27 @@ void Initializer::wait(const FrameTime& time, VoReason reason, MotionPredictor& 
   out->cov_prev_cam = predicted.cov;
 }
 
-/// Whether the view is still the reference's own.
-bool Initializer::stands(const FrameTime& time, LocalMap& map) {
+/// Returns whether the camera has not moved since the last frame, and adds the newest image to the
+/// history if so.
+bool Initializer::detect_standstill(const FrameTime& time, LocalMap& map) {
   const int newest = map.window.newest();
   scratch_.clear();
   for (const int index : map.tracks.active()) {
     const Track& track = map.tracks[index];
     scratch_.push_back((camera_.from_normalized(track.shown_xy_in(newest)) - track.px).norm());
   }
-  if (percentile(scratch_, kStandingShare) > kStandingFlowPx) return false;
+  if (percentile(scratch_, kStandstillPercentile) > kStandstillFlowPx) return false;
   const Se3 T_cam_world = map.window[newest].T_cam_world;
   if (map.window.order().size() == 1) {
-    // Aligning with the reference's patches undoes the drift of the search.
-    map.tracker.anchor(map.newest_image().level(0), map.tracks, map.window, T_cam_world);
+    // The alignment with the reference's patches removes the drift that the search accumulates.
+    map.tracker.align_to_hosts(map.newest_image().level(0), map.tracks, map.window, T_cam_world);
   }
   map.window.remember(time.seq, T_cam_world, true);
   map.keep_image(T_cam_world);
   return true;
 }
 
-/// Collects the pairs of reference and newest view. Returns their median flow in pixels.
+/// Collects the pairs of rays in reference and newest image. Returns their median flow in pixels.
 double Initializer::collect_pairs(const LocalMap& map) {
   pairs_.clear();
   scratch_.clear();
@@ -179,10 +191,12 @@ double Initializer::collect_pairs(const LocalMap& map) {
   return percentile(scratch_, 0.5);
 }
 
-bool Initializer::try_two_views(const FrameTime& time, double least_flow_px, LocalMap& map,
+/// Solves the two views if the flow is at least `min_flow_px` and not due to a rotation alone.
+/// Returns whether the map is initialised.
+bool Initializer::try_two_views(const FrameTime& time, double min_flow_px, LocalMap& map,
                                 MotionPredictor& motion, VoOutput* out) {
   out->median_flow_px = collect_pairs(map);
-  if (out->median_flow_px < least_flow_px) return false;
+  if (out->median_flow_px < min_flow_px) return false;
   if (fit_rotation(pairs_, focal_px_.x(), scratch_).median_px < kMinStartParallaxPx) return false;
   Window& window = map.window;
   const Se3 T_guess =
@@ -192,13 +206,14 @@ bool Initializer::try_two_views(const FrameTime& time, double least_flow_px, Loc
     return false;
   }
   const bool speed_known = restarting_ && speed_known_ && predicted_distance_ > 0.0;
-  adopt(views, speed_known ? predicted_distance_ : typical_distance(views), map, out);
+  build_window(views, speed_known ? predicted_distance_ : typical_distance(views), map, out);
   out->status = VoStatus::kOk;
   if (restarting_) {
     out->reason = VoReason::kRestarted;
     ++out->scale_epoch;
     out->scale_carry_std =
-        speed_known ? carried_std(motion.measured_speed(), motion.unseen_s() + time.dt_s) : kNan;
+        speed_known ? speed_carry_std(motion.measured_speed(), motion.unseen_s() + time.dt_s)
+                    : kNan;
   }
   const Se3 T_now_world = window[window.newest()].T_cam_world;
   if (window.num_history() > 1) {
@@ -211,7 +226,7 @@ bool Initializer::try_two_views(const FrameTime& time, double least_flow_px, Loc
   return true;
 }
 
-/// Length of the translation that puts the median track at a typical depth.
+/// Returns the length of the translation that puts the median track at a typical depth.
 double Initializer::typical_distance(const TwoView& views) {
   scratch_.clear();
   for (const RayPair& pair : pairs_) {
@@ -221,15 +236,18 @@ double Initializer::typical_distance(const TwoView& views) {
   return percentile(scratch_, 0.5) / kTypicalRho;
 }
 
-/// Makes the window of the two views: poses between them, inverse depths, and a first refinement.
-void Initializer::adopt(const TwoView& views, double distance, LocalMap& map, VoOutput* out) {
+/// Builds the window from the two views: it interpolates the poses between them, triangulates the
+/// tracks, refines everything and makes the newest frame a keyframe.
+void Initializer::build_window(const TwoView& views, double distance, LocalMap& map,
+                               VoOutput* out) {
   Window& window = map.window;
   const auto last = static_cast<double>(window.order().size() - 1);
   const Se3 T_ref_world = window[window.order()[0]].T_cam_world;
-  const Eigen::Vector3d turn = log_so3(views.T_second_first.R);
+  const Eigen::Vector3d rotation = log_so3(views.T_second_first.R);
   for (std::size_t i = 1; i < window.order().size(); ++i) {
-    const double share = static_cast<double>(i) / last;
-    const Se3 T_frame_ref{exp_so3(share * turn), share * distance * views.T_second_first.t};
+    const double fraction = static_cast<double>(i) / last;
+    const Se3 T_frame_ref{exp_so3(fraction * rotation),
+                          fraction * distance * views.T_second_first.t};
     window[window.order()[i]].T_cam_world = T_frame_ref * T_ref_world;
   }
   const int newest = window.newest();
@@ -237,21 +255,21 @@ void Initializer::adopt(const TwoView& views, double distance, LocalMap& map, Vo
   for (const int index : map.tracks.active()) {
     Track& track = map.tracks[index];
     double rho = 0.0;
-    const bool meets = triangulate({track.host_xy, track.xy}, views.T_second_first, &rho);
-    track.rho = meets ? std::clamp(rho / distance, kMinRho, 1.0) : kTypicalRho;
+    const bool valid = triangulate({track.host_xy, track.xy}, views.T_second_first, &rho);
+    track.rho = valid ? std::clamp(rho / distance, kMinRho, 1.0) : kTypicalRho;
     track.prior_rho = kTypicalRho;
     track.prior_std = kUnknownRhoStd;
-    refine_inverse_depth(track, window, focal_px_, kDepthIterations);
+    refine_inverse_depth(track, window, focal_px_, kTriangulationIterations);
   }
-  map.drop_gross(newest);
+  map.retire_gross_outliers(newest);
   map.refine(kStartIterations);
-  map.drop_outliers();
+  map.free_outliers();
   map.keyframes.trim_recent(map.tracks, window);
   out->num_inliers = static_cast<int>(map.tracks.active().size());
   const Se3 T_now_world = window[newest].T_cam_world;
   out->cov_prev_cam = motion_covariance(map.fit(T_now_world, 1), previous_pose(map));
   out->is_keyframe = true;
-  out->num_new = map.keyframes.spawn(newest, map.newest_image(), map.tracks, window);
+  out->num_new = map.keyframes.start_tracks(newest, map.newest_image(), map.tracks, window);
 }
 
 }  // namespace plumb::vo

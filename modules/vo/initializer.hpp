@@ -1,12 +1,20 @@
-/// Initialisation from two views, at the start and after tracking has failed.
+/// Initialisation of the map from two views, at the start and after tracking has failed.
 ///
-/// A reference image starts tracks without depth. Once the image has moved far enough, the relative pose of reference
-/// and newest image is solved (five-point RANSAC, Nister 2004) and the tracks get their inverse depths. The length of
-/// the first translation is free: it follows from a typical depth, or, after a loss, from the speed before it.
+/// A reference image starts tracks without depth. Each later image is tracked until the median flow
+/// is large enough (vo.start_flow_px) and a rotation alone does not explain it. Then the relative
+/// pose of reference and newest image is solved (two_view.hpp), the tracks are triangulated, and
+/// the window is refined.
 ///
-/// Frames   world: cam of the first frame, kept over a loss as far as the prediction goes.
-/// Units    [vo], pixels, seconds.
-/// Memory   sized at construction.
+/// The length of the first translation is not observable. At the start it puts the median track at
+/// a typical depth. After a failure it is the distance that the last measured speed predicts, so
+/// that the unit of length changes little; `scale_epoch` and `scale_carry_std` report the change.
+///
+/// Frames:
+///   world: cam of the first image. After a failure, the reference gets its predicted pose.
+/// Units:
+///   [vo], pixels, seconds.
+/// Memory:
+///   One pair of rays per track, allocated by the constructor.
 #pragma once
 
 #include <cstdint>
@@ -28,46 +36,52 @@ class Initializer {
  public:
   Initializer(const VoConfig& config, const CameraModel& camera, std::uint64_t seed);
 
-  /// The first image becomes the reference. `out` gets its status and the number of new tracks.
+  /// Makes the newest image of `map`, which is the first one, the reference. `out` gets status,
+  /// reason and the number of new tracks.
   void begin(const FrameTime& time, LocalMap& map, VoOutput* out);
-  /// Tracks the reference into the newest image of `map` and tries to solve the two views. `out` gets status, reason
-  /// and what the tracker saw. @pre has_reference(), not done()
+  /// Tracks the reference into the newest image of `map` and tries to solve the two views. `out`
+  /// gets status, reason, covariance and the counts of tracks. @pre has_reference(), not done()
   void update(const FrameTime& time, LocalMap& map, MotionPredictor& motion, VoOutput* out,
               StageProbe& probe);
-  /// Tracking failed: starts again from the last image and the newest one.
+  /// Starts again after tracking has failed. The last image becomes the reference if it was
+  /// localised, and the two views are solved at once if they can be. Else the newest image becomes
+  /// the reference.
+  /// @pre has_reference()
   void restart(const FrameTime& time, LocalMap& map, MotionPredictor& motion, VoOutput* out,
                StageProbe& probe);
-  /// An image was coasted over: the reference is that much farther away.
+  /// Adds to the predicted distance from the reference, for an image that showed nothing.
   void add_predicted_distance(double distance) { predicted_distance_ += distance; }
 
-  [[nodiscard]] bool has_reference() const { return phase_ != Phase::kEmpty; }
-  /// The window is triangulated, so tracking can go on with it.
+  /// Returns whether there was a first image.
+  [[nodiscard]] bool has_reference() const { return phase_ != Phase::kNoReference; }
+  /// Returns whether the map has depths, so that images can be localised in it.
   [[nodiscard]] bool done() const { return phase_ == Phase::kDone; }
 
  private:
-  enum class Phase { kEmpty, kWaiting, kDone };
+  enum class Phase { kNoReference, kTracking, kDone };
 
   void set_reference(std::int64_t seq, const Se3& T_cam_world, const Pyramid& image, LocalMap& map,
                      VoOutput* out);
   void track_reference(const FrameTime& time, const Se3& T_predicted, LocalMap& map,
                        const MotionPredictor& motion, VoOutput* out);
-  [[nodiscard]] bool stands(const FrameTime& time, LocalMap& map);
-  [[nodiscard]] bool try_two_views(const FrameTime& time, double least_flow_px, LocalMap& map,
+  [[nodiscard]] bool detect_standstill(const FrameTime& time, LocalMap& map);
+  [[nodiscard]] bool try_two_views(const FrameTime& time, double min_flow_px, LocalMap& map,
                                    MotionPredictor& motion, VoOutput* out);
   [[nodiscard]] double collect_pairs(const LocalMap& map);
   [[nodiscard]] double typical_distance(const TwoView& views);
-  void adopt(const TwoView& views, double distance, LocalMap& map, VoOutput* out);
-  void wait(const FrameTime& time, VoReason reason, MotionPredictor& motion, VoOutput* out) const;
+  void build_window(const TwoView& views, double distance, LocalMap& map, VoOutput* out);
+  void report_unsolved(const FrameTime& time, VoReason reason, MotionPredictor& motion,
+                       VoOutput* out) const;
 
   VoConfig config_;
   CameraModel camera_;
   Eigen::Vector2d focal_px_;
   Random random_;
-  Phase phase_ = Phase::kEmpty;
-  int num_at_reference_ = 0;         // tracks that the reference started with
-  double predicted_distance_ = 0.0;  // since the reference image, [vo]
-  bool restarting_ = false;          // a unit of length has been lost
-  bool speed_known_ = false;         // at that time
+  Phase phase_ = Phase::kNoReference;
+  int num_at_reference_ = 0;         // number of tracks to compare later numbers with
+  double predicted_distance_ = 0.0;  // from the reference to the newest image, [vo]
+  bool restarting_ = false;          // tracking has failed, and the unit of length is lost
+  bool speed_known_ = false;         // the speed was known when tracking failed
   std::vector<RayPair> pairs_;
   std::vector<double> scratch_;
 };

@@ -9,9 +9,10 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kDepthCauchy2 = 1.0;
+constexpr double kDepthCauchy2 = 1.0;  // [px^2] c^2 of the kernel
 constexpr double kInformation = 1.0 / (kPixelStd * kPixelStd);
-// A new host's prior: wide enough to let the observations decide, narrow enough to survive a standstill.
+// The prior at a new host is wide, so that the observations decide. It is not so wide that the
+// depth is lost at a standstill, where the observations carry no information.
 constexpr double kRehostStd = 3.0;
 constexpr double kRehostMinStd = 0.05;
 
@@ -46,11 +47,10 @@ void refine_inverse_depth(Track& track, const Window& window, const Eigen::Vecto
 }
 
 bool inverse_depth_in(const Track& track, const Se3& T_frame_host, double* rho, double* rho_std) {
-  const Eigen::Vector3d Y =
-      T_frame_host.R * track.host_xy.homogeneous() + track.rho * T_frame_host.t;
+  const Eigen::Vector3d Y = transfer_point(T_frame_host, track.host_xy, track.rho);
   if (Y.z() < kMinDepthRatio) return false;
   *rho = std::max(track.rho / Y.z(), kMinRho);
-  // d(rho / Yz)/drho = (Yz - rho tz) / Yz^2
+  // With Yz = (R m)_z + rho tz, d(rho / Yz)/drho = (Yz - rho tz) / Yz^2.
   const double slope = std::abs(Y.z() - track.rho * T_frame_host.t.z()) / (Y.z() * Y.z());
   *rho_std = track.rho_std * slope;
   return true;

@@ -1,4 +1,7 @@
-/// Inverse depth of one track from its observations, poses held.
+/// Inverse depth of one track from its observations, with constant poses.
+///
+/// Units:
+///   rho in 1/[vo], pixels.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,16 +11,18 @@
 
 namespace plumb::vo {
 
-/// Gauss-Newton over rho with Cauchy weights and the track's prior; sets rho and rho_std.
+/// Estimates rho and rho_std from all observations and the track's prior, by Gauss-Newton with
+/// Cauchy weights.
 void refine_inverse_depth(Track& track, const Window& window, const Eigen::Vector2d& focal_px,
                           int max_iterations);
 
-/// rho and its deviation in another frame of the window. False when the point is behind it.
+/// Converts rho and its standard deviation to another frame. Returns false when the point is behind
+/// that frame.
 [[nodiscard]] bool inverse_depth_in(const Track& track, const Se3& T_frame_host, double* rho,
                                     double* rho_std);
 
-/// Moves the host of `track` from `leaving` to the next keyframe that saw it. False when there is none: the track
-/// has lost its depth.
+/// Makes the next keyframe that saw `track` its host instead of the one in slot `leaving`. Returns
+/// false when there is none, or when the point is behind it; the track is then useless.
 [[nodiscard]] bool change_host(Track& track, int leaving, const Window& window);
 
 }  // namespace plumb::vo

@@ -11,11 +11,14 @@
 namespace plumb::vo {
 namespace {
 
-// Less parallax than this makes no keyframe, however few tracks are left.
+// A keyframe needs this parallax even when its overlap is small.
 constexpr double kMinKeyframeParallaxPx = 2.0;
+// With fewer tracks than this share of the last keyframe's, a smaller parallax is enough.
 constexpr double kFewTracksRatio = 0.5;
 constexpr double kFewTracksParallaxPx = 1.0;
-constexpr double kKnownDepth = 0.2;  // deviation as a share of rho
+// Tracks whose standard deviation is a smaller share of the inverse depth can predict others.
+constexpr double kKnownDepth = 0.2;
+// The threshold for corners is lower from this distance below the optical centre downwards.
 constexpr double kHorizonMarginPx = 30.0;
 
 }  // namespace
@@ -28,50 +31,52 @@ Keyframes::Keyframes(const VoConfig& config, const CameraModel& camera, int trac
   scratch_.reserve(static_cast<std::size_t>(track_capacity));
 }
 
-Keyframes::View Keyframes::look(const TrackTable& tracks, const Window& window,
-                                const Se3& T_cam_world) {
-  View view;
+Keyframes::Overlap Keyframes::compare(const TrackTable& tracks, const Window& window,
+                                      const Se3& T_cam_world) {
+  Overlap overlap;
   const int keyframe = window.newest_keyframe();
   const Eigen::Matrix3d R_cam_key = T_cam_world.R * window[keyframe].T_cam_world.R.transpose();
   scratch_.clear();
   for (const int index : tracks.active()) {
     const Track& track = tracks[index];
-    ++view.num_tracks;
+    ++overlap.num_tracks;
     if (!track.seen_in(keyframe)) continue;
-    ++view.num_shared;
+    ++overlap.num_shared;
     const Eigen::Vector3d Y = R_cam_key * track.xy_in(keyframe).homogeneous();
     if (Y.z() > 0.1) scratch_.push_back((camera_.project(Y) - track.px).norm());
   }
   constexpr double kNothingShared = 99.0;
-  view.median_parallax_px = kNothingShared;
-  if (!scratch_.empty()) view.median_parallax_px = upper_median(scratch_);
-  return view;
+  overlap.median_parallax_px = kNothingShared;
+  if (!scratch_.empty()) overlap.median_parallax_px = upper_median(scratch_);
+  return overlap;
 }
 
-bool Keyframes::wanted(const View& view) const {
-  if (view.median_parallax_px > config_.keyframe_parallax_px) return true;
-  if (view.num_shared < config_.keyframe_overlap_ratio * num_at_keyframe_ &&
-      view.median_parallax_px > kMinKeyframeParallaxPx) {
+bool Keyframes::is_needed(const Overlap& overlap) const {
+  if (overlap.median_parallax_px > config_.keyframe_parallax_px) return true;
+  if (overlap.num_shared < config_.keyframe_overlap_ratio * num_at_keyframe_ &&
+      overlap.median_parallax_px > kMinKeyframeParallaxPx) {
     return true;
   }
-  return view.num_tracks < kFewTracksRatio * num_at_keyframe_ &&
-         view.median_parallax_px > kFewTracksParallaxPx;
+  return overlap.num_tracks < kFewTracksRatio * num_at_keyframe_ &&
+         overlap.median_parallax_px > kFewTracksParallaxPx;
 }
 
 void Keyframes::remove_frame(int slot, TrackTable& tracks, Window& window) {
-  const auto leave = [&](int index) {
+  // Returns false when the track has lost its host.
+  const auto remove_from = [&](int index) {
     Track& track = tracks[index];
     if (track.host == slot) {
       if (!change_host(track, slot, window)) return false;
       track.host_px = camera_.from_normalized(track.shown_xy_in(track.host));
     }
-    track.forget(slot);
+    track.remove_observation(slot);
     return true;
   };
-  tracks.sift_active(
-      [&](int index) { return leave(index) ? TrackTable::Fate::kStay : TrackTable::Fate::kFree; });
+  tracks.sift_active([&](int index) {
+    return remove_from(index) ? TrackTable::Fate::kStay : TrackTable::Fate::kFree;
+  });
   tracks.sift_passive([&](int index) {
-    if (!leave(index)) return false;
+    if (!remove_from(index)) return false;
     const Track& track = tracks[index];
     return __builtin_popcount(track.seen & ~(1U << track.host)) >= 2;
   });
@@ -91,6 +96,7 @@ void Keyframes::promote(int slot, const ImageView& image, TrackTable& tracks, Wi
   }
 }
 
+// Collects the active tracks with known depth, as `slot` sees them.
 void Keyframes::collect_neighbours(int slot, const TrackTable& tracks, const Window& window) {
   neighbours_.clear();
   for (const int index : tracks.active()) {
@@ -103,8 +109,9 @@ void Keyframes::collect_neighbours(int slot, const TrackTable& tracks, const Win
   }
 }
 
-// Median of the three nearest; rows differ in depth more than columns do.
-void Keyframes::guess_depth(Track& track) const {
+// Predicts the inverse depth of a new track as the median of its three nearest neighbours.
+// Distances across rows count more, because the depth of a road changes with the row.
+void Keyframes::predict_depth(Track& track) const {
   constexpr double kRowWeight = 4.0;
   std::array<std::pair<double, double>, 3> nearest;
   nearest.fill({1e300, 0.0});
@@ -130,24 +137,27 @@ void Keyframes::guess_depth(Track& track) const {
   track.prior_std = std::max(0.03, track.rho);
 }
 
-int Keyframes::spawn(int slot, const Pyramid& image, TrackTable& tracks, const Window& window) {
+int Keyframes::start_tracks(int slot, const Pyramid& image, TrackTable& tracks,
+                            const Window& window) {
   detector_.clear();
-  for (const int index : tracks.active()) detector_.take(0.5 * tracks[index].px);
+  for (const int index : tracks.active()) detector_.occupy(0.5 * tracks[index].px);
   collect_neighbours(slot, tracks, window);
-  // Half the resolution suits the patches' size and is a quarter of the work.
+  // Corners are detected on level 1: its scale suits the size of the patches, at a quarter of the
+  // work.
   const CornerOptions options{config_.min_corner_grey2, 0.5 * (camera_.cy_px + kHorizonMarginPx)};
   int num_new = 0;
   for (const Eigen::Vector2d& half_px : detector_.detect(image.level(1), options)) {
-    const Eigen::Vector2d px = 2.0 * half_px;  // whole pixels: no interpolation in the host patch
+    const Eigen::Vector2d px =
+        2.0 * half_px;  // whole pixels, so that the host patch is not interpolated
     const int index = tracks.add();
     if (index < 0) break;
     Track& track = tracks[index];
     track.host = slot;
     track.px = track.prev_px = track.host_px = px;
-    track.xy = track.prev_xy = track.host_xy = camera_.to_normalized(px);
+    track.xy = track.host_xy = camera_.to_normalized(px);
     track.observe(slot, track.xy);
     track.num_images = 1;
-    guess_depth(track);
+    predict_depth(track);
     ++num_new;
   }
   num_at_keyframe_ = static_cast<int>(tracks.active().size());

@@ -1,4 +1,11 @@
-/// When a frame becomes a keyframe, and what enters and leaves the window with it.
+/// Decides when a frame becomes a keyframe, and moves frames and tracks into and out of the window.
+///
+/// Frames:
+///   img for px; world: cam of the first image.
+/// Units:
+///   [vo] and 1/[vo], pixels.
+/// Memory:
+///   Sized by the image and the number of tracks, and allocated by the constructor.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,32 +20,37 @@
 
 namespace plumb::vo {
 
-/// Inverse depth of a point of which nothing is known, 1/[vo]; the first two views are scaled to have this median.
+/// Inverse depth of a point whose depth is unknown [1/vo]. It is also the median inverse depth to
+/// which the first two views are scaled.
 inline constexpr double kTypicalRho = 1.0 / 15.0;
 
 class Keyframes {
  public:
   Keyframes(const VoConfig& config, const CameraModel& camera, int track_capacity);
 
-  /// Looks at the active tracks in the newest frame of the window.
-  struct View {
-    double median_parallax_px = 0.0;  ///< rotation-compensated, from the newest keyframe
-    int num_shared = 0;               ///< tracks seen in that keyframe
-    int num_tracks = 0;
+  /// The newest image compared with the newest keyframe.
+  struct Overlap {
+    double median_parallax_px = 0.0;  ///< rotation-compensated
+    int num_shared = 0;               ///< number of active tracks that the keyframe saw, too
+    int num_tracks = 0;               ///< number of active tracks
   };
-  [[nodiscard]] View look(const TrackTable& tracks, const Window& window, const Se3& T_cam_world);
-  [[nodiscard]] bool wanted(const View& view) const;
+  [[nodiscard]] Overlap compare(const TrackTable& tracks, const Window& window,
+                                const Se3& T_cam_world);
+  /// Returns whether a frame with this overlap is to become a keyframe.
+  [[nodiscard]] bool is_needed(const Overlap& overlap) const;
 
-  /// Drops frames that are neither keyframes nor recent.
+  /// Removes the frames that are neither keyframes nor recent.
   void trim_recent(TrackTable& tracks, Window& window);
-  /// Makes `slot` a keyframe; the oldest one leaves when there are too many, and its tracks change host.
+  /// Makes the frame in `slot` a keyframe. When there are too many, the oldest one is removed.
   void promote(int slot, const ImageView& image, TrackTable& tracks, Window& window);
-  /// Starts tracks at new corners of keyframe `slot`. Returns how many.
-  int spawn(int slot, const Pyramid& image, TrackTable& tracks, const Window& window);
-  /// Active tracks when the newest keyframe was made.
+  /// Starts tracks at corners of the keyframe in `slot` where there are none yet. Returns their
+  /// number.
+  int start_tracks(int slot, const Pyramid& image, TrackTable& tracks, const Window& window);
+  /// Returns the number of active tracks when the newest keyframe was made.
   [[nodiscard]] int num_at_keyframe() const { return num_at_keyframe_; }
 
-  /// Takes `slot` out of the window and of every track.
+  /// Removes the frame in `slot` from the window and from every track. Tracks that it hosts move to
+  /// the next keyframe that saw them; they are freed if there is none.
   void remove_frame(int slot, TrackTable& tracks, Window& window);
 
  private:
@@ -47,7 +59,7 @@ class Keyframes {
     double rho;
   };
   void collect_neighbours(int slot, const TrackTable& tracks, const Window& window);
-  void guess_depth(Track& track) const;
+  void predict_depth(Track& track) const;
 
   VoConfig config_;
   CameraModel camera_;

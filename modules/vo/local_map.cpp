@@ -6,11 +6,16 @@ namespace plumb::vo {
 namespace {
 
 constexpr int kNumLevels = 4;
-constexpr double kGrossPx = 4.0;
-constexpr double kBadPx = 2.0;
-constexpr double kBadNewestPx = 3.0;
-constexpr double kSettledDepth = 0.02;  // standard deviation as a share of the inverse depth
+// Residuals that make an outlier: in the newest frame before and after refinement, and in the
+// frames before.
+constexpr double kGrossOutlierPx = 4.0;
+constexpr double kNewestOutlierPx = 3.0;
+constexpr double kOutlierPx = 2.0;
+// Below this standard deviation, as a share of the inverse depth, a track needs no refinement of
+// its own.
+constexpr double kConvergedDepth = 0.02;
 constexpr double kMinRefineParallaxPx = 0.3;
+constexpr int kDepthIterations = 4;
 constexpr int kKeyframeIterations = 3;
 constexpr int kFrameIterations = 1;
 
@@ -42,7 +47,7 @@ int LocalMap::start_reference(std::int64_t seq, const Se3& T_cam_world, const Py
   tracks.clear();
   const int slot = window.add(seq, T_cam_world);
   keyframes.promote(slot, image.level(0), tracks, window);
-  return keyframes.spawn(slot, image, tracks, window);
+  return keyframes.start_tracks(slot, image, tracks, window);
 }
 
 int LocalMap::add_frame(std::int64_t seq, const Se3& T_cam_world) {
@@ -61,23 +66,23 @@ Insertion LocalMap::insert(std::int64_t seq, const Se3& T_cam_world, bool refine
   if (refine_window) {
     for (const int index : tracks.active()) {
       Track& track = tracks[index];
-      if (track.rho_std > kSettledDepth * track.rho) {
-        refine_inverse_depth(track, window, focal_px_, 4);
+      if (track.rho_std > kConvergedDepth * track.rho) {
+        refine_inverse_depth(track, window, focal_px_, kDepthIterations);
       }
     }
   }
-  drop_gross(slot);
-  const Keyframes::View view = keyframes.look(tracks, window, T_cam_world);
-  Insertion done{!refine_window || keyframes.wanted(view), 0, view.median_parallax_px};
+  retire_gross_outliers(slot);
+  const Keyframes::Overlap overlap = keyframes.compare(tracks, window, T_cam_world);
+  Insertion done{!refine_window || keyframes.is_needed(overlap), 0, overlap.median_parallax_px};
   keyframes.trim_recent(tracks, window);
   if (done.is_keyframe) keyframes.promote(slot, newest_image().level(0), tracks, window);
-  if (refine_window && view.median_parallax_px > kMinRefineParallaxPx) {
+  if (refine_window && overlap.median_parallax_px > kMinRefineParallaxPx) {
     refine(done.is_keyframe ? kKeyframeIterations : kFrameIterations);
-    drop_outliers();
+    free_outliers();
   }
   probe.mark("refine");
   if (done.is_keyframe) {
-    done.num_new = keyframes.spawn(slot, newest_image(), tracks, window);
+    done.num_new = keyframes.start_tracks(slot, newest_image(), tracks, window);
     probe.mark("detect");
   }
   return done;
@@ -91,21 +96,22 @@ void LocalMap::refine(int max_iterations) {
   refiner_.refine(window, tracks, focal_px_, config_.fixed_keyframes, max_iterations);
 }
 
-void LocalMap::drop_gross(int slot) {
+void LocalMap::retire_gross_outliers(int slot) {
   tracks.sift_active([&](int index) {
     Track& track = tracks[index];
-    if (track.host == slot || check_track(track, window, focal_px_, kBadPx).newest_px <= kGrossPx) {
+    if (track.host == slot ||
+        check_track(track, window, focal_px_, kOutlierPx).newest_px <= kGrossOutlierPx) {
       return TrackTable::Fate::kStay;
     }
-    track.forget(slot);
+    track.remove_observation(slot);
     return TrackTable::Fate::kRetire;
   });
 }
 
-void LocalMap::drop_outliers() {
+void LocalMap::free_outliers() {
   const auto good = [this](int index) {
-    const TrackFit f = check_track(tracks[index], window, focal_px_, kBadPx);
-    return f.newest_px <= kBadNewestPx && !(f.num >= 3 && 2 * f.num_bad > f.num);
+    const TrackFit f = check_track(tracks[index], window, focal_px_, kOutlierPx);
+    return f.newest_px <= kNewestOutlierPx && !(f.num >= 3 && 2 * f.num_bad > f.num);
   };
   tracks.sift_active(
       [&](int index) { return good(index) ? TrackTable::Fate::kStay : TrackTable::Fate::kFree; });

@@ -5,7 +5,8 @@
 namespace plumb::vo {
 namespace {
 
-// 1-sigma of a predicted motion, as a share of it and per second unseen.
+// Standard deviation of a predicted motion: a share of the motion, and what an unknown acceleration
+// adds over the time without a measurement.
 constexpr double kMotionStdRatio = 0.1;
 constexpr double kAccelerationStd = 1.5;      // [vo]/s^2
 constexpr double kTurnAccelerationStd = 0.2;  // rad/s^2
@@ -47,7 +48,7 @@ PredictedMotion MotionPredictor::coast(double dt_s) {
   const PredictedMotion motion = extrapolate(dt_s);
   const double keep = std::exp(-dt_s / coast_decay_s_);
   velocity_ *= keep;
-  rate_ *= keep * keep;  // turns end sooner than drives
+  rate_ *= keep * keep;  // a turn ends sooner than a drive
   return motion;
 }
 

@@ -1,7 +1,13 @@
-/// Predicts the camera's motion: constant velocity between images, fading while nothing is seen.
+/// Predicts the camera's motion with a model of constant velocity. While images show nothing, the
+/// motion is carried on for a limited time (coasting) and fades.
 ///
-/// Frames   cam, before and after the motion: T_prev_cam maps cam now to cam of the previous image.
-/// Units    [vo]/s and rad/s; seconds.
+/// Frames:
+///   T_prev_cam maps coordinates in cam after the motion to coordinates in cam before it.
+/// Units:
+///   [vo]/s, rad/s, seconds.
+/// Errors:
+///   PredictedMotion::valid is false when no motion was ever measured, or none for
+///   vo.coast_limit_s.
 #pragma once
 
 #include "core/se3.hpp"
@@ -9,41 +15,42 @@
 
 namespace plumb::vo {
 
-/// A motion that was not seen, with what is known of it.
+/// A motion that was predicted instead of measured.
 struct PredictedMotion {
-  bool valid = false;               ///< false when no motion was ever measured, or too long ago
+  bool valid = false;
   Se3 T_prev_cam;                   ///< the identity unless valid
-  Matrix6d cov = Matrix6d::Zero();  ///< of (t, right-perturbation of R); valid only
+  Matrix6d cov = Matrix6d::Zero();  ///< of (t, right perturbation of R); zero unless valid
 };
 
 class MotionPredictor {
  public:
   explicit MotionPredictor(const VoConfig& config);
 
-  /// Takes a measured motion over `dt_s`. @pre dt_s > 0
+  /// Takes the motion that was measured over `dt_s`. @pre dt_s > 0
   void observe(const Se3& T_prev_cam, double dt_s);
-  /// An image was understood, although it gave no motion to observe.
+  /// Ends coasting although no motion was measured: the image was localised.
   void mark_seen() { unseen_s_ = 0.0; }
 
-  /// Whether a motion was ever measured.
+  /// Returns whether a motion was ever measured.
   [[nodiscard]] bool known() const { return known_; }
-  /// Motion over `dt_s` at constant velocity; the identity when none is known.
+  /// Returns the motion over `dt_s` at constant velocity, or the identity unless known().
   [[nodiscard]] Se3 predict(double dt_s) const;
-  /// Speed when it was last measured, however long ago [vo]/s; 0 when none is known.
+  /// Returns the last measured speed [vo]/s, however old it is, or 0 unless known().
   [[nodiscard]] double measured_speed() const { return known_ ? measured_speed_ : 0.0; }
-  /// Time since a motion was measured.
+  /// Returns the time since a motion was measured.
   [[nodiscard]] double unseen_s() const { return unseen_s_; }
 
-  /// Carries the motion over an image `dt_s` later that did not show it.
+  /// Predicts the motion to an image that comes `dt_s` later and could not be localised.
   [[nodiscard]] PredictedMotion extrapolate(double dt_s);
-  /// The same, for an image that shows nothing at all: the motion fades from image to image.
+  /// Predicts the motion to an image that shows nothing. Later predictions are smaller: the motion
+  /// fades with the time constant vo.coast_decay_s.
   [[nodiscard]] PredictedMotion coast(double dt_s);
 
  private:
   double coast_limit_s_;
   double coast_decay_s_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // [vo]/s
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();      // rad/s
   double measured_speed_ = 0.0;
   double unseen_s_ = 0.0;
   bool known_ = false;

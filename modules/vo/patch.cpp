@@ -5,15 +5,15 @@
 namespace plumb::vo {
 namespace {
 
-constexpr std::ptrdiff_t kLanes = 8;  // bytes that one vector of floats takes in
+constexpr std::ptrdiff_t kLanes = kNumLanes;  // bytes that become one vector of floats
 
-// Per pixel: below this the patch is noise.
+// A patch whose grey values have a smaller variance shows noise.
 constexpr float kMinVarianceGrey2 = 1.0F;
-// Determinant over squared trace: below this the patch is an edge.
+// A patch with a smaller ratio of determinant to squared trace shows a straight edge.
 constexpr float kMinIsotropy = 1e-6F;
 constexpr float kConvergedPx2 = 1e-4F;
 
-// Fixed point with 8 fractional bits: the result is grey << 16.
+// Interpolates a grey value. Coordinates have 8 fractional bits, the result has 16.
 int bilinear_fixed(const ImageView& image, int u_fixed, int v_fixed) {
   const int fu = u_fixed & 255;
   const int fv = v_fixed & 255;
@@ -24,7 +24,8 @@ int bilinear_fixed(const ImageView& image, int u_fixed, int v_fixed) {
   return (top << 8) + fv * (bottom - top);
 }
 
-// False for NaN and for what an int cannot hold: a cast of those is undefined.
+// Returns false for NaN and for values beyond the range of int, because their conversion is
+// undefined.
 bool near_image(const ImageView& image, const Eigen::Vector2f& px) {
   return px.x() >= 0.0F && px.y() >= 0.0F && px.x() <= static_cast<float>(image.width_px) &&
          px.y() <= static_cast<float>(image.height_px);
@@ -37,6 +38,7 @@ bool near_image(const ImageView& image, const Eigen::Vector2f& px) {
 
 }  // namespace
 
+// One for the lanes of a row's vector that belong to the template, zero for the padding.
 template <int kHalf>
 [[gnu::always_inline]] inline Float8 Patch<kHalf>::mask(int vector) {
   Float8 m;
@@ -72,7 +74,7 @@ bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px) {
 template <int kHalf>
 bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px,
                        const Eigen::Matrix2f& A) {
-  // The far corners bound the parallelogram.
+  // The corners of the template bound the parallelogram in the image.
   constexpr float kReach = kHalf + 1;
   const float reach_u = kReach * (std::abs(A(0, 0)) + std::abs(A(0, 1)));
   const float reach_v = kReach * (std::abs(A(1, 0)) + std::abs(A(1, 1)));
@@ -81,7 +83,7 @@ bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px,
         px.y() + reach_v <= static_cast<float>(image.height_px - 3))) {
     return false;
   }
-  // Positions in 1/2^16 pixel, so that the steps along a row stay exact enough over it.
+  // Positions are in units of 2^-16 pixels, so that rounding errors do not add up along a row.
   constexpr float kFixed = 65536.0F;
   const auto du = static_cast<int>(A(0, 0) * kFixed);
   const auto dv = static_cast<int>(A(1, 0) * kFixed);
@@ -108,7 +110,7 @@ bool Patch<kHalf>::prepare(const Raw& raw) {
   for (int j = 0; j < kSize; ++j) {
     for (int k = 0; k < kVectors; ++k) {
       const Float8 m = mask(k);
-      // The last vector of a row may reach past the raw row; the mask removes what it finds there.
+      // The last vector of a row extends beyond the template; the mask clears those lanes.
       const float* here = &raw[j + 1][8 * k];
       value_[j][k] = m * load_floats(here + 1);
       gx_[j][k] = m * 0.5F * (load_floats(here + 2) - load_floats(here));
@@ -202,7 +204,6 @@ Alignment Patch<kHalf>::align(const ImageView& image, const Eigen::Vector2f& sta
   return result;
 }
 
-template class Patch<3>;
 template class Patch<5>;
 template class Patch<7>;
 

@@ -7,13 +7,16 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kFoundEnough = 0.6;
+constexpr double kFoundEnough = 0.6;  // share of the tracks below which the search is widened
+// With fewer inliers than these, tracking has failed.
 constexpr int kMinInliers = 15;
 constexpr double kMinInlierRatio = 0.35;
+// Below this share of inliers, the fit is tried again from farther away.
 constexpr double kPoorInlierRatio = 0.6;
-constexpr double kMinHeldTracksRatio =
-    0.6;  // below it the camera has turned away from its landmarks
+// Below this share of the keyframe's tracks, the camera has turned away from its landmarks.
+constexpr double kMinTurnedTracksRatio = 0.6;
 constexpr int kPoseIterations = 8;
+constexpr int kAnnealingIterations = 4;
 
 }  // namespace
 
@@ -44,12 +47,13 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
   } else {
     track(probe);
   }
-  finish(input);
+  report(input);
   probe.mark("output");
   return out_;
 }
 
-/// Whether the image has the camera's size and follows the one before in time. Sets time_ and clears out_.
+/// Returns whether the image has the camera's size and is later than the previous one. Clears out_
+/// and sets time_.
 bool Pipeline::accept(const VoInput& input) {
   const std::int32_t epoch = out_.scale_epoch;
   out_ = VoOutput{};
@@ -58,7 +62,7 @@ bool Pipeline::accept(const VoInput& input) {
   out_.scale_epoch = epoch;
   if (input.image.empty() || input.image.width_px != camera_.width_px ||
       input.image.height_px != camera_.height_px) {
-    out_.reason = VoReason::kNoCalibration;  // there is none for an image of this size
+    out_.reason = VoReason::kNoCalibration;  // the calibration is of another size
     return false;
   }
   if (last_seq_ >= 0 && input.capture_us <= last_us_) {
@@ -72,7 +76,7 @@ bool Pipeline::accept(const VoInput& input) {
   return true;
 }
 
-/// The image shows nothing: the motion goes on as predicted, and fades.
+/// Handles an image that shows nothing. The motion is predicted and fades.
 void Pipeline::coast(VoReason reason) {
   out_.reason = reason;
   out_.status = VoStatus::kLost;
@@ -86,8 +90,9 @@ void Pipeline::coast(VoReason reason) {
   out_.cov_prev_cam = predicted.cov;
 }
 
+/// Localises the newest image in the map and updates the map with it.
 void Pipeline::track(StageProbe& probe) {
-  const PoseFit pose = locate(probe);
+  const PoseFit pose = localize(probe);
   report_fit(pose);
   if (pose.num_inliers < kMinInliers || pose.inlier_ratio() < kMinInlierRatio) {
     zero_motion_.reset();
@@ -96,14 +101,15 @@ void Pipeline::track(StageProbe& probe) {
   }
   const ZeroMotion kind = zero_motion_.judge(map_, pose.T_cam_world);
   if (kind == ZeroMotion::kNone) {
-    advance(pose, probe);
+    handle_motion(pose, probe);
   } else {
-    hold(pose, kind, probe);
+    handle_zero_motion(pose, kind, probe);
   }
 }
 
-/// Finds the tracks in the newest image and fits its pose to them.
-PoseFit Pipeline::locate(StageProbe& probe) {
+/// Searches the tracks in the newest image and fits its pose to them. The first fit gives the
+/// motion by which the host patches are warped; the second one uses the positions that they give.
+PoseFit Pipeline::localize(StageProbe& probe) {
   const Se3 T_predicted = motion_.predict(time_.dt_s).inverse() * map_.last_pose();
   map_.tracker.begin(map_.tracks, time_.dt_s + motion_.unseen_s());
   map_.tracker.predict_by_pose(map_.tracks, map_.window, map_.last_image_pose(), T_predicted);
@@ -115,19 +121,20 @@ PoseFit Pipeline::locate(StageProbe& probe) {
   probe.mark("track");
   const PoseFit rough = fit_from(T_predicted);
   probe.mark("pose");
-  map_.tracker.anchor(map_.newest_image().level(0), map_.tracks, map_.window, rough.T_cam_world);
+  map_.tracker.align_to_hosts(map_.newest_image().level(0), map_.tracks, map_.window,
+                              rough.T_cam_world);
   probe.mark("anchor");
   const PoseFit pose = map_.fit(rough.T_cam_world, kPoseIterations);
   probe.mark("pose");
   return pose;
 }
 
-/// Searches the tracks that are still missing, for less and for more motion than predicted.
+/// Searches the missing tracks again, with less and with more motion than predicted.
 void Pipeline::search_wider(const Se3& T_predicted) {
   const Se3 T_image_world = map_.last_image_pose();
   const Se3 T_image_now = T_image_world * T_predicted.inverse();
-  for (const double share : {0.5, 1.5, 0.0}) {
-    const Se3 T_image_other{exp_so3(share * log_so3(T_image_now.R)), share * T_image_now.t};
+  for (const double factor : {0.5, 1.5, 0.0}) {
+    const Se3 T_image_other{exp_so3(factor * log_so3(T_image_now.R)), factor * T_image_now.t};
     map_.tracker.predict_by_pose(map_.tracks, map_.window, T_image_world,
                                  T_image_other.inverse() * T_image_world);
     const int num_found =
@@ -136,22 +143,24 @@ void Pipeline::search_wider(const Se3& T_predicted) {
   }
 }
 
-/// Pose by the tracks as the search left them. Far from the prediction it widens the robust kernel and then closes it
-/// step by step.
+/// Fits the pose to the tracks as the search left them. When the prediction is poor, a second fit
+/// starts with a wide robust kernel and narrows it step by step (graduated non-convexity). The fit
+/// with more inliers wins.
 PoseFit Pipeline::fit_from(const Se3& T_predicted) const {
   const PoseFit near = map_.fit(T_predicted, kPoseIterations);
   if (near.inlier_ratio() >= kPoorInlierRatio) return near;
   const Eigen::Vector2d focal_px(camera_.fx_px, camera_.fy_px);
   Se3 T = map_.last_pose();
   for (const double scale : {1000.0, 250.0, 60.0, 15.0, 4.0}) {
-    T = fit_pose(T, map_.tracks, map_.window, focal_px, {4, scale, false}).T_cam_world;
+    T = fit_pose(T, map_.tracks, map_.window, focal_px, {kAnnealingIterations, scale, false})
+            .T_cam_world;
   }
   const PoseFit far = map_.fit(T, kPoseIterations);
   return far.num_inliers > near.num_inliers ? far : near;
 }
 
-/// The camera moved: the frame enters the window, and the motion is measured.
-void Pipeline::advance(const PoseFit& pose, StageProbe& probe) {
+/// The camera has translated. The frame enters the window, and the motion is measured.
+void Pipeline::handle_motion(const PoseFit& pose, StageProbe& probe) {
   const Window& window = map_.window;
   const Se3 T_image_world = map_.last_image_pose();
   const double since_s = time_.dt_s + motion_.unseen_s();
@@ -165,14 +174,14 @@ void Pipeline::advance(const PoseFit& pose, StageProbe& probe) {
   out_.status = VoStatus::kOk;
 }
 
-/// The camera stands still or turns on the spot: its position stays. A frame enters the window only when it has turned
-/// away from most of its landmarks.
-void Pipeline::hold(const PoseFit& pose, ZeroMotion kind, StageProbe& probe) {
+/// The camera stands still or turns on the spot, and its position stays as it was. The frame enters
+/// the window only if the camera has turned away from most of its landmarks.
+void Pipeline::handle_zero_motion(const PoseFit& pose, ZeroMotion kind, StageProbe& probe) {
   const Se3& T_held_world = zero_motion_.hold(map_, pose.T_cam_world, kind);
   const auto num_tracks = static_cast<double>(map_.tracks.active().size());
-  const bool thin = num_tracks < kMinHeldTracksRatio * map_.keyframes.num_at_keyframe();
+  const bool turned_away = num_tracks < kMinTurnedTracksRatio * map_.keyframes.num_at_keyframe();
   const Se3 T_prev_cam = map_.last_pose() * T_held_world.inverse();
-  if (kind == ZeroMotion::kTranslation && thin) {
+  if (kind == ZeroMotion::kTranslation && turned_away) {
     insert(T_held_world, false, probe);
   } else {
     map_.window.remember(time_.seq, T_held_world, true);
@@ -182,6 +191,7 @@ void Pipeline::hold(const PoseFit& pose, ZeroMotion kind, StageProbe& probe) {
   out_.status = kind == ZeroMotion::kAll ? VoStatus::kStandstill : VoStatus::kRotationOnly;
 }
 
+/// Adds the frame to the map and reports what became of it.
 void Pipeline::insert(const Se3& T_cam_world, bool refine, StageProbe& probe) {
   const Insertion done = map_.insert(time_.seq, T_cam_world, refine, probe);
   out_.num_new = done.num_new;
@@ -201,14 +211,15 @@ void Pipeline::report_fit(const PoseFit& pose) {
   out_.cov_prev_cam = motion_covariance(pose, map_.last_pose());
 }
 
-void Pipeline::finish(const VoInput& input) {
+/// Reports motion, window and road points, from the poses as they are refined now.
+void Pipeline::report(const VoInput& input) {
   const Window& window = map_.window;
   if (window.num_history() > 0) {
     const Se3 T_cam_world = map_.last_pose();
     report_motion(T_cam_world);
     for (int i = 0; i < window.num_history(); ++i) {
-      const Window::Past& past = window.history()[static_cast<std::size_t>(i)];
-      if (!past.seen) continue;
+      const PastFrame& past = window.history()[static_cast<std::size_t>(i)];
+      if (!past.measured) continue;
       static_cast<void>(
           out_.window.push_back({past.seq, window.past_pose(past) * T_cam_world.inverse()}));
     }
@@ -222,7 +233,7 @@ void Pipeline::finish(const VoInput& input) {
   last_seq_ = input.seq;
 }
 
-/// Motion since the previous image, from the poses as they are refined now.
+/// Reports the motion since the previous image.
 void Pipeline::report_motion(const Se3& T_cam_world) {
   const Window& window = map_.window;
   const bool linked = window.num_history() > 1 && window.history()[1].seq == last_seq_;
@@ -232,7 +243,7 @@ void Pipeline::report_motion(const Se3& T_cam_world) {
   if (out_.status != VoStatus::kInitializing && out_.status != VoStatus::kLost) {
     out_.T_prev_cam = T_last_world_ * T_cam_world.inverse();
   }
-  // A motion that was held is exact, not a difference of equal numbers.
+  // Zero motion is reported as exact zeros, not as the difference of two equal poses.
   if (out_.status == VoStatus::kStandstill) out_.T_prev_cam = Se3{};
   if (out_.status == VoStatus::kRotationOnly) out_.T_prev_cam.t.setZero();
 }

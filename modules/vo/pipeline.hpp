@@ -1,7 +1,22 @@
-/// The visual odometry, step by step. VisualOdometry hides it from its users.
+/// Visual odometry, step by step. VisualOdometry hides this class from its users.
 ///
-/// Every image is accepted or refused by its number and time, judged by its content, and then one of three things
-/// happens: initialisation goes on (Initializer), tracking goes on (track), or the image is coasted over.
+/// update() takes one image:
+///   1. accept() compares size, time and number of the image with what is expected. judge_image()
+///      refuses images that show nothing.
+///   2. Before there is a map, Initializer solves two views. After a refused image, coast()
+///   predicts
+///      the motion.
+///   3. Otherwise track() searches the tracks in the image and fits its pose to them (localize).
+///      The pose is one of a moving camera (handle_motion) or of one that does not translate
+///      (handle_zero_motion). Without enough inliers, Initializer starts again.
+///   4. report() derives the output from the refined poses.
+///
+/// Frames:
+///   world: cam of the first image.  cam: cam of the newest image.
+/// Units:
+///   [vo], pixels, radians, seconds.
+/// Memory:
+///   Sized by the configuration and the camera, and allocated by the constructor.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,20 +34,21 @@ namespace plumb::vo {
 class Pipeline {
  public:
   Pipeline(const VoConfig& config, const CameraModel& camera, std::uint64_t seed);
+  /// Processes one image. The result is valid until the next call.
   const VoOutput& update(const VoInput& input, StageProbe& probe);
 
  private:
   [[nodiscard]] bool accept(const VoInput& input);
   void coast(VoReason reason);
   void track(StageProbe& probe);
-  [[nodiscard]] PoseFit locate(StageProbe& probe);
+  [[nodiscard]] PoseFit localize(StageProbe& probe);
   void search_wider(const Se3& T_predicted);
   [[nodiscard]] PoseFit fit_from(const Se3& T_predicted) const;
-  void advance(const PoseFit& pose, StageProbe& probe);
-  void hold(const PoseFit& pose, ZeroMotion kind, StageProbe& probe);
+  void handle_motion(const PoseFit& pose, StageProbe& probe);
+  void handle_zero_motion(const PoseFit& pose, ZeroMotion kind, StageProbe& probe);
   void insert(const Se3& T_cam_world, bool refine, StageProbe& probe);
   void report_fit(const PoseFit& pose);
-  void finish(const VoInput& input);
+  void report(const VoInput& input);
   void report_motion(const Se3& T_cam_world);
 
   VoConfig config_;
@@ -43,9 +59,9 @@ class Pipeline {
   Initializer initializer_;
 
   FrameTime time_;
-  std::int64_t last_us_ = 0;
-  std::int64_t last_seq_ = -1;  // -1 before the first frame
-  Se3 T_last_world_;            // pose of the last frame handed out, as it was then
+  std::int64_t last_us_ = 0;    // time stamp of the previous image
+  std::int64_t last_seq_ = -1;  // its number; -1 before the first image
+  Se3 T_last_world_;            // its pose as it was published
   std::vector<double> scratch_;
   VoOutput out_;
 };

@@ -10,10 +10,10 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kPoseCauchy2 = 4.0;
+constexpr double kPoseCauchy2 = 4.0;  // c^2 of the kernel
 constexpr double kConvergedStep = 1e-7;
 
-using HostTable = std::array<Se3, kMaxFrames>;
+using PoseTable = std::array<Se3, kMaxFrames>;  // by slot
 
 struct NormalEquations {
   Matrix6d H = Matrix6d::Zero();
@@ -21,6 +21,7 @@ struct NormalEquations {
   double sum_inlier_px2 = 0.0;
 };
 
+// Adds the weighted normal equations of one point.
 void add_point(const Track& track, const Se3& T_cam_host, const Eigen::Vector2d& focal_px,
                double kernel2, NormalEquations* normal, PoseFit* fit) {
   const PointInFrame p = transfer(T_cam_host, track.host_xy, track.rho, track.xy, focal_px);
@@ -28,7 +29,7 @@ void add_point(const Track& track, const Se3& T_cam_host, const Eigen::Vector2d&
   const Matrix23d D = projection_jacobian(p.Y, focal_px);
   const Eigen::Vector2d d = D * T_cam_host.t;
 
-  // Inverse of S = s2 I + v d d^T (Sherman-Morrison): (I - k d d^T) / s2.
+  // The inverse of S = s2 I + v d d^T is (I - k d d^T) / s2 by the Sherman-Morrison formula.
   const double s2 = kPixelStd * kPixelStd;
   const double v = track.rho_std * track.rho_std;
   const double k = v / (s2 + v * d.squaredNorm());
@@ -51,10 +52,11 @@ void add_point(const Track& track, const Se3& T_cam_host, const Eigen::Vector2d&
   normal->b += weight * (a * p.residual_px.x() + c * p.residual_px.y() - (k * rd) * g);
 }
 
-// Rotation about the camera centre c keeps R^T t: with T <- (E R, E t) the (d, w) step is (0, w).
-bool solve(const NormalEquations& normal, bool hold_translation, Vector6d* step) {
+// A rotation about the camera centre does not change R^T t. With T <- (E R, E t), the step (d, w)
+// is (0, w).
+bool solve(const NormalEquations& normal, bool rotation_only, Vector6d* step) {
   step->setZero();
-  if (hold_translation) {
+  if (rotation_only) {
     const Eigen::Matrix3d H = normal.H.bottomRightCorner<3, 3>();
     step->tail<3>() = H.ldlt().solve(normal.b.tail<3>());
   } else {
@@ -66,21 +68,21 @@ bool solve(const NormalEquations& normal, bool hold_translation, Vector6d* step)
   return step->allFinite();
 }
 
-// Measured errors of the motion over what the information matrix promises, as a ratio of variances.
+// Ratio of the measured variance of the motion to the one by the information matrix.
 constexpr double kCovarianceInflation = 4.0;
 
 }  // namespace
 
 PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& window,
                  const Eigen::Vector2d& focal_px, const PoseOptions& options) {
-  HostTable T_world_host;
+  PoseTable T_world_host;
   for (const int slot : window.order()) {
     T_world_host[static_cast<std::size_t>(slot)] = window[slot].T_cam_world.inverse();
   }
   PoseFit fit;
   fit.T_cam_world = start;
   for (int i = 0; i <= options.max_iterations; ++i) {
-    HostTable T_cam_host;
+    PoseTable T_cam_host;
     for (const int slot : window.order()) {
       const auto s = static_cast<std::size_t>(slot);
       T_cam_host[s] = fit.T_cam_world * T_world_host[s];
@@ -96,7 +98,7 @@ PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& windo
     fit.information = normal.H;
     fit.rms_px = std::sqrt(normal.sum_inlier_px2 / std::max(1, fit.num_inliers));
     Vector6d step;
-    if (i == options.max_iterations || !solve(normal, options.hold_translation, &step)) break;
+    if (i == options.max_iterations || !solve(normal, options.rotation_only, &step)) break;
     perturb(fit.T_cam_world, step);
     if (step.norm() < kConvergedStep) break;
   }
@@ -104,8 +106,8 @@ PoseFit fit_pose(const Se3& start, const TrackTable& tracks, const Window& windo
 }
 
 Matrix6d motion_covariance(const PoseFit& pose, const Se3& T_prev_world) {
-  // T_prev_cam = T_prev_world T_world_cam: for T_cam_world <- (exp(w), d), t moves by -R_prev_cam d and R by exp(-w)
-  // on the right.
+  // T_prev_cam = T_prev_world T_world_cam. The perturbation (d, w) of T_cam_world moves t by
+  // -R_prev_cam d and multiplies R by exp(-w) from the right.
   Matrix6d information = pose.information;
   information.diagonal().array() += 1e-9;
   const Matrix6d cov = kCovarianceInflation * information.inverse();

@@ -8,16 +8,18 @@
 namespace plumb::vo {
 namespace {
 
-constexpr double kRefineCauchy2 = 1.0;
+constexpr double kRefineCauchy2 = 1.0;  // [px^2] c^2 of the kernel
 constexpr double kStartDamping = 1e-5;
 constexpr double kDampingUp = 20.0;
 constexpr double kMaxDamping = 1.0;
+// Relative decrease of the cost below which the refinement has converged.
 constexpr double kConverged = 1e-4;
 constexpr double kDiagonalFloor = 1e-6;
-// Weak pull that keeps an unobserved inverse depth finite.
+// Prior of every inverse depth, for rho_std only: it bounds the standard deviation by 0.3.
 constexpr double kRhoPriorInformation = 1.0 / 0.09;
 
-// Solves A x = b in place for a symmetric positive definite A (row major, upper triangle given).
+// Solves A x = b in place by A = U^T U, for a symmetric positive definite A whose upper triangle is
+// given in row-major order. Returns false when A is not positive definite.
 bool solve_cholesky(double* A, double* b, int n) {
   for (int j = 0; j < n; ++j) {
     double* row = A + static_cast<std::ptrdiff_t>(j) * n;
@@ -30,11 +32,11 @@ bool solve_cholesky(double* A, double* b, int n) {
       for (int k = i; k < n; ++k) below[k] -= f * row[k];
     }
   }
-  for (int i = 0; i < n; ++i) {  // U^T y = b
+  for (int i = 0; i < n; ++i) {  // forward substitution, U^T y = b
     b[i] /= A[i * n + i];
     for (int k = i + 1; k < n; ++k) b[k] -= A[i * n + k] * b[i];
   }
-  for (int i = n - 1; i >= 0; --i) {  // U x = y
+  for (int i = n - 1; i >= 0; --i) {  // backward substitution, U x = y
     double sum = b[i];
     for (int k = i + 1; k < n; ++k) sum -= A[i * n + k] * b[k];
     b[i] = sum / A[i * n + i];
@@ -47,6 +49,8 @@ bool solve_cholesky(double* A, double* b, int n) {
 WindowRefiner::WindowRefiner(int track_capacity)
     : structures_(static_cast<std::size_t>(track_capacity)) {}
 
+// Chooses the frames that are free and the tracks that connect frames. A passive track needs two
+// frames besides its host, because its inverse depth takes up what one of them says.
 void WindowRefiner::choose(const Window& window, const TrackTable& tracks, int fixed_keyframes) {
   const int num_keyframes = window.num_keyframes();
   const int num_fixed =
@@ -54,10 +58,10 @@ void WindowRefiner::choose(const Window& window, const TrackTable& tracks, int f
   free_of_slot_.fill(-1);
   free_slots_.clear();
   std::uint32_t in_window = 0;
-  int passed = 0;
+  int position = 0;
   for (const int slot : window.order()) {
     in_window |= 1U << slot;
-    if (passed++ < num_fixed) continue;
+    if (position++ < num_fixed) continue;
     free_of_slot_[static_cast<std::size_t>(slot)] = static_cast<int>(free_slots_.size());
     static_cast<void>(free_slots_.push_back(slot));
   }
@@ -71,6 +75,7 @@ void WindowRefiner::choose(const Window& window, const TrackTable& tracks, int f
   for (const int index : tracks.passive()) take(index, 2);
 }
 
+// Adds one track to the normal equations of the frames, and fills its own part.
 void WindowRefiner::add_track(const Window& window, const TrackTable& tracks,
                               const Eigen::Vector2d& focal_px, Structure* s) {
   const Track& track = tracks[s->track];
@@ -124,6 +129,7 @@ void WindowRefiner::add_track(const Window& window, const TrackTable& tracks,
   }
 }
 
+// Eliminates the inverse depth of one track: H_ff -= w w^T / hrr, b_f -= w br / hrr.
 void WindowRefiner::eliminate(Structure& s) {
   s.hrr *= 1.0 + damping_;
   const double inv = 1.0 / s.hrr;
@@ -139,6 +145,7 @@ void WindowRefiner::eliminate(Structure& s) {
   }
 }
 
+// Builds the reduced normal equations of the frames, and computes the cost.
 void WindowRefiner::build(const Window& window, const TrackTable& tracks,
                           const Eigen::Vector2d& focal_px) {
   for (const int slot : window.order()) {
@@ -153,6 +160,8 @@ void WindowRefiner::build(const Window& window, const TrackTable& tracks,
   }
 }
 
+// Solves the reduced normal equations for the step of the frames. Returns false when they are not
+// positive definite.
 bool WindowRefiner::solve() {
   const auto num_free = static_cast<int>(free_slots_.size());
   const int n = 6 * num_free;
@@ -203,6 +212,8 @@ void WindowRefiner::restore(Window& window, TrackTable& tracks) const {
   }
 }
 
+// Applies the step to the frames and computes the steps of the inverse depths from it. A step is
+// limited so that the depth keeps its sign and at most triples.
 void WindowRefiner::apply(Window& window, TrackTable& tracks) {
   for (std::size_t i = 0; i < free_slots_.size(); ++i) {
     perturb(window[free_slots_[i]].T_cam_world, step_[i]);
@@ -226,7 +237,7 @@ void WindowRefiner::refine(Window& window, TrackTable& tracks, const Eigen::Vect
   choose(window, tracks, fixed_keyframes);
   if (free_slots_.empty() || num_structures_ == 0) return;
   damping_ = kStartDamping;
-  double best = -1.0;  // cost at the saved state, negative before there is one
+  double best = -1.0;  // cost at the saved state; negative when none is saved
   for (int i = 0; i < max_iterations; ++i) {
     build(window, tracks, focal_px);
     if (best >= 0.0 && cost_ > best * (1.0 + 1e-9)) {

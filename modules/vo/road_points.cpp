@@ -9,7 +9,7 @@ namespace plumb::vo {
 namespace {
 
 constexpr int kMinImages = 3;
-constexpr double kMaxRelStd = 0.5;
+constexpr double kMaxRelStd = 0.5;  // standard deviation of the inverse depth, as a share of it
 
 }  // namespace
 
@@ -23,8 +23,7 @@ void collect_road_points(const TrackTable& tracks, const Window& window, const S
     double rho = 0.0;
     double rho_std = 0.0;
     if (!inverse_depth_in(track, T_cam_host, &rho, &rho_std)) continue;
-    const Eigen::Vector3d p_cam =
-        (T_cam_host.R * track.host_xy.homogeneous() + track.rho * T_cam_host.t) / track.rho;
+    const Eigen::Vector3d p_cam = transfer_point(T_cam_host, track.host_xy, track.rho) / track.rho;
     if (!(p_cam.y() > 0.0) || rho_std > kMaxRelStd * rho) continue;
     RoadPoint point;
     point.p_cam = p_cam.cast<float>();

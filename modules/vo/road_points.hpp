@@ -1,4 +1,4 @@
-/// Triangulated points below the horizon, for whoever looks for the road.
+/// Selection of the triangulated points that may lie on the road.
 #pragma once
 
 #include "core/camera_model.hpp"
@@ -8,6 +8,9 @@
 
 namespace plumb::vo {
 
+/// Collects the active tracks below the horizon whose depth is known, in the order of the table,
+/// until `points` is full. The road itself is not recognised here; the ground estimator does that.
+/// @param T_cam_world  pose of the newest image
 void collect_road_points(const TrackTable& tracks, const Window& window, const Se3& T_cam_world,
                          FixedVector<RoadPoint, kMaxRoadPoints>* points);
 

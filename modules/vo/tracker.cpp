@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/percentile.hpp"
-#include "modules/vo/klt.hpp"
 #include "modules/vo/patch.hpp"
 #include "modules/vo/projection.hpp"
 
@@ -15,16 +14,18 @@ namespace {
 constexpr double kSearchBorderPx = 10.0;
 constexpr float kMaxRoundTripPx = 0.7F;
 constexpr float kMinSearchNcc = 0.5F;
-constexpr float kMinAnchorNcc = 0.75F;
-// Good enough with the road's warp alone, for a point that was on the road before.
+constexpr float kMinAlignNcc = 0.75F;
+// A track that was on the road before needs no other warp when the road's matches this well.
 constexpr float kRoadNcc = 0.9F;
 constexpr double kRoadBelowHorizonPx = 25.0;
-// Depth deviations, as a share of rho, up to which a prediction leans on them.
+// Determinant below which the road's warp is degenerate.
+constexpr double kMinRoadWarp = 0.05;
+// Below this standard deviation, as a share of the inverse depth, the depth is used in predictions.
 constexpr double kUsableDepth = 0.5;
-// Up to here the host's patch checks a match better than the way back does.
+// Below this one, the alignment with the host checks a match better than a backward search does.
 constexpr double kSettledSearchDepth = 0.1;
-constexpr AlignLimits kAnchorLimits{};
-// A search on level l finds what is kReachPx 2^l away.
+constexpr AlignLimits kAlignLimits{};
+// A search that starts on level l converges from kReachPx 2^l away.
 constexpr int kReachPx = 4;
 constexpr int kRetryLevel = 2;
 constexpr float kUnknownStdPx = 30.0F;
@@ -32,11 +33,25 @@ constexpr double kMinStdPx = 0.5;
 
 Eigen::Matrix2f inverse_of(const Eigen::Matrix2d& B) { return B.inverse().cast<float>(); }
 
+/// Returns the linear warp from the host image to the newest one for a patch of a level road.
+/// There, rho is proportional to y of the ray, so that every pixel of the patch has a depth of its
+/// own.
+Eigen::Matrix2d road_warp(const CameraModel& camera, const Track& track, const Se3& T_cam_host) {
+  const auto warp = [&](double du, double dv) {
+    const Eigen::Vector3d n = camera.unproject(track.host_px + Eigen::Vector2d(du, dv));
+    const double rho = track.rho * n.y() / track.host_xy.y();
+    return camera.project(T_cam_host.R * n + rho * T_cam_host.t);
+  };
+  Eigen::Matrix2d B;
+  B << (warp(2, 0) - warp(-2, 0)) / 4.0, (warp(0, 2) - warp(0, -2)) / 4.0;
+  return B;
+}
+
 }  // namespace
 
 Tracker::Tracker(const CameraModel& camera, int track_capacity)
     : camera_(camera),
-      guesses_(static_cast<std::size_t>(track_capacity)),
+      predictions_(static_cast<std::size_t>(track_capacity)),
       found_(static_cast<std::size_t>(track_capacity)),
       flow_(static_cast<std::size_t>(track_capacity)) {
   scratch_.reserve(static_cast<std::size_t>(track_capacity));
@@ -54,14 +69,15 @@ void Tracker::begin(TrackTable& tracks, double dt_s) {
     Track& track = tracks[index];
     flow_[static_cast<std::size_t>(index)] = track.px - track.prev_px;
     track.prev_px = track.px;
-    track.prev_xy = track.xy;
     found_[static_cast<std::size_t>(index)] = 0;
   }
 }
 
-/// Under a rolling shutter a point is seen at its row's time; its own motion between the last two images brings it to
-/// the image's time, whatever its depth. A point new in the image before learns only now where that was.
-void Tracker::place(const Eigen::Vector2d& px, Track& track) const {
+/// Sets the newest position of a track. With a rolling shutter, the position is measured at the
+/// time of its row. The track's own motion since the previous image moves it to the image's time
+/// stamp, independently of its depth. For a track that started in the previous image, the host's
+/// position is corrected in the same way now, because its motion was not known before.
+void Tracker::set_position(const Eigen::Vector2d& px, Track& track) const {
   track.px = px;
   track.xy = camera_.to_normalized(px);
   if (camera_.readout_s <= 0.0 || dt_s_ <= 0.0) return;
@@ -71,7 +87,7 @@ void Tracker::place(const Eigen::Vector2d& px, Track& track) const {
   const Eigen::Vector2d velocity = (track.xy - prev_shown_xy) / (dt_s_ + row_s - prev_row_s);
   if (track.num_images == 1 && track.prev_px == track.host_px) {
     track.row_shift = prev_row_s * velocity;
-    track.host_xy = track.prev_xy = prev_shown_xy - track.row_shift;
+    track.host_xy = prev_shown_xy - track.row_shift;
     track.observe(track.host, track.host_xy, track.row_shift);
   }
   track.row_shift = row_s * velocity;
@@ -81,7 +97,7 @@ void Tracker::place(const Eigen::Vector2d& px, Track& track) const {
 void Tracker::predict_by_flow(const TrackTable& tracks) {
   for (const int index : tracks.active()) {
     const auto i = static_cast<std::size_t>(index);
-    guesses_[i] = {(tracks[index].prev_px + flow_[i]).cast<float>(), 1.0F, kUnknownStdPx};
+    predictions_[i] = {(tracks[index].prev_px + flow_[i]).cast<float>(), 1.0F, kUnknownStdPx};
   }
 }
 
@@ -96,56 +112,67 @@ void Tracker::predict_by_pose(const TrackTable& tracks, const Window& window,
   }
   for (const int index : tracks.active()) {
     const Track& track = tracks[index];
-    Guess& guess = guesses_[static_cast<std::size_t>(index)];
-    guess = {track.prev_px.cast<float>(), 1.0F, kUnknownStdPx};
+    Prediction& prediction = predictions_[static_cast<std::size_t>(index)];
+    prediction = {track.prev_px.cast<float>(), 1.0F, kUnknownStdPx};
     const auto host = static_cast<std::size_t>(track.host);
-    const Eigen::Vector3d m = track.host_xy.homogeneous();
-    const Eigen::Vector3d Y = T_cam_host[host].R * m + track.rho * T_cam_host[host].t;
-    const Eigen::Vector3d Y_prev = T_prev_host[host].R * m + track.rho * T_prev_host[host].t;
+    const Eigen::Vector3d Y = transfer_point(T_cam_host[host], track.host_xy, track.rho);
+    const Eigen::Vector3d Y_prev = transfer_point(T_prev_host[host], track.host_xy, track.rho);
     if (Y.z() < kMinDepthRatio || Y_prev.z() < kMinDepthRatio) continue;
-    // Added to where the track was, the predicted motion keeps the track's own offset from its model.
+    // When the depth is uncertain, the predicted flow is added to the previous position, so that
+    // the error of the depth affects the flow alone.
     const Eigen::Vector2d now = camera_.project(Y);
     const Eigen::Vector2d before = camera_.project(Y_prev);
     const bool usable = track.rho_std < kUsableDepth * track.rho && camera_.readout_s <= 0.0;
-    guess.px = (usable ? now : Eigen::Vector2d(track.prev_px + now - before)).cast<float>();
+    prediction.px = (usable ? now : Eigen::Vector2d(track.prev_px + now - before)).cast<float>();
     const double flow_std = (now - before).norm() * track.rho_std / track.rho;
-    guess.std_px = static_cast<float>(kMinStdPx + surprise_px_ + flow_std);
-    guess.scale = std::clamp(static_cast<float>(Y_prev.z() / Y.z()), 0.5F, 2.0F);
+    prediction.std_px = static_cast<float>(kMinStdPx + prediction_error_px_ + flow_std);
+    prediction.scale = std::clamp(static_cast<float>(Y_prev.z() / Y.z()), 0.5F, 2.0F);
   }
 }
 
-int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, bool wide) {
+/// Searches one track in `to` and, when its depth is uncertain, back in `from`. Returns a match
+/// that is not ok() when one of the searches fails.
+KltMatch Tracker::find(const Pyramid& from, const Pyramid& to, const Track& track,
+                       const Prediction& prediction, bool wide) const {
   const int coarsest = from.num_levels() - 1;
+  const Eigen::Vector2f start = track.prev_px.cast<float>();
+  int level = wide ? coarsest : 0;
+  while (level < coarsest && static_cast<float>(kReachPx << level) < 2.0F * prediction.std_px) {
+    ++level;
+  }
+  KltMatch there = klt_search(from, start, to, prediction.px, prediction.scale, level);
+  if (level < kRetryLevel && there.ncc < kMinSearchNcc) {
+    there = klt_search(from, start, to, prediction.px, prediction.scale, kRetryLevel);
+  }
+  if (!there.ok() || there.ncc < kMinSearchNcc || !inside(there.px.cast<double>())) return {};
+  if (track.rho_std >= kSettledSearchDepth * track.rho) {
+    const KltMatch back = klt_search(to, there.px, from, start, 1.0F / prediction.scale, 0);
+    if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) return {};
+  }
+  return there;
+}
+
+int Tracker::search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, bool wide) {
   int num_found = 0;
   scratch_.clear();
   for (const int index : tracks.active()) {
-    unsigned char& found = found_[static_cast<std::size_t>(index)];
-    if (found != 0) {
+    const auto i = static_cast<std::size_t>(index);
+    if (found_[i] != 0) {
       ++num_found;
       continue;
     }
     Track& track = tracks[index];
-    const Guess& guess = guesses_[static_cast<std::size_t>(index)];
-    const Eigen::Vector2f start = track.prev_px.cast<float>();
-    int level = wide ? coarsest : 0;
-    while (level < coarsest && static_cast<float>(kReachPx << level) < 2.0F * guess.std_px) ++level;
-    KltMatch there = klt_search(from, start, to, guess.px, guess.scale, level);
-    if (level < kRetryLevel && there.ncc < kMinSearchNcc) {
-      there = klt_search(from, start, to, guess.px, guess.scale, kRetryLevel);
-    }
-    if (!there.ok() || there.ncc < kMinSearchNcc || !inside(there.px.cast<double>())) continue;
-    if (track.rho_std >= kSettledSearchDepth * track.rho) {
-      const KltMatch back = klt_search(to, there.px, from, start, 1.0F / guess.scale, 0);
-      if (!back.ok() || (back.px - start).norm() > kMaxRoundTripPx) continue;
-    }
-    found = 1;
+    const Prediction& prediction = predictions_[i];
+    const KltMatch match = find(from, to, track, prediction, wide);
+    if (!match.ok()) continue;
+    found_[i] = 1;
     ++num_found;
-    place(there.px.cast<double>(), track);
+    set_position(match.px.cast<double>(), track);
     if (track.rho_std < kUsableDepth * track.rho) {
-      scratch_.push_back(static_cast<double>((there.px - guess.px).norm()));
+      scratch_.push_back(static_cast<double>((match.px - prediction.px).norm()));
     }
   }
-  if (!scratch_.empty()) surprise_px_ = upper_median(scratch_);
+  if (!scratch_.empty()) prediction_error_px_ = upper_median(scratch_);
   return num_found;
 }
 
@@ -156,10 +183,11 @@ void Tracker::drop_missing(TrackTable& tracks) {
   });
 }
 
-bool Tracker::anchor_one(const ImageView& image, Track& track, const ImageView& host_image,
-                         const Se3& T_cam_host) const {
-  const Eigen::Vector3d m = track.host_xy.homogeneous();
-  const Eigen::Vector3d Y = T_cam_host.R * m + track.rho * T_cam_host.t;
+/// Aligns one track with its host patch. Below the horizon, the patch is warped like a part of the
+/// road and like a surface that faces the camera, and the better match counts.
+bool Tracker::align(const ImageView& image, Track& track, const ImageView& host_image,
+                    const Se3& T_cam_host) const {
+  const Eigen::Vector3d Y = transfer_point(T_cam_host, track.host_xy, track.rho);
   if (Y.z() < kMinDepthRatio) return false;
   const bool usable = track.rho_std < kUsableDepth * track.rho;
   const Eigen::Vector2f start = track.px.cast<float>();
@@ -169,51 +197,43 @@ bool Tracker::anchor_one(const ImageView& image, Track& track, const ImageView& 
   Patch<5> patch;
 
   if (usable && track.host_px.y() > camera_.cy_px + kRoadBelowHorizonPx) {
-    // Road: rho is proportional to the ray's y, so each neighbour has its own depth.
-    const auto warp = [&](double du, double dv) {
-      const Eigen::Vector3d n = camera_.unproject(track.host_px + Eigen::Vector2d(du, dv));
-      return camera_.project(T_cam_host.R * n + (track.rho * n.y() / m.y()) * T_cam_host.t);
-    };
-    Eigen::Matrix2d B;
-    B << (warp(2, 0) - warp(-2, 0)) / 4.0, (warp(0, 2) - warp(0, -2)) / 4.0;
-    if (B.determinant() > 0.05 && patch.cut(host_image, host_px, inverse_of(B))) {
-      best = patch.align(image, start, kAnchorLimits);
+    const Eigen::Matrix2d B = road_warp(camera_, track, T_cam_host);
+    if (B.determinant() > kMinRoadWarp && patch.cut(host_image, host_px, inverse_of(B))) {
+      best = patch.align(image, start, kAlignLimits);
       on_road = best.ok();
     }
   }
   if (!(track.on_road && best.ncc > kRoadNcc)) {
-    // Facing the camera: host offset = (Z / Z_host) R_roll^T offset.
+    // The warp of a patch that faces the camera: host offset = (Z / Z_host) R_roll^T offset.
     const double scale = usable ? Y.z() : 1.0;
     const Eigen::Matrix2f A =
         (scale * T_cam_host.R.topLeftCorner<2, 2>().transpose()).cast<float>();
     if (patch.cut(host_image, host_px, A)) {
-      const Alignment facing = patch.align(image, start, kAnchorLimits);
+      const Alignment facing = patch.align(image, start, kAlignLimits);
       if (facing.ncc > best.ncc) {
         best = facing;
         on_road = false;
       }
     }
   }
-  if (best.ncc < kMinAnchorNcc) return false;
+  if (best.ncc < kMinAlignNcc) return false;
   track.on_road = on_road;
-  place(best.px.cast<double>(), track);
+  set_position(best.px.cast<double>(), track);
   return true;
 }
 
-int Tracker::anchor(const ImageView& image, TrackTable& tracks, const Window& window,
-                    const Se3& T_cam_world) {
+void Tracker::align_to_hosts(const ImageView& image, TrackTable& tracks, const Window& window,
+                             const Se3& T_cam_world) {
   std::array<Se3, kMaxFrames> T_cam_host;
   for (const int slot : window.order()) {
     T_cam_host[static_cast<std::size_t>(slot)] = T_cam_world * window[slot].T_cam_world.inverse();
   }
   tracks.sift_active([&](int index) {
     Track& track = tracks[index];
-    return anchor_one(image, track, window.image(track.host),
-                      T_cam_host[static_cast<std::size_t>(track.host)])
-               ? TrackTable::Fate::kStay
-               : TrackTable::Fate::kRetire;
+    const Se3& T = T_cam_host[static_cast<std::size_t>(track.host)];
+    return align(image, track, window.image(track.host), T) ? TrackTable::Fate::kStay
+                                                            : TrackTable::Fate::kRetire;
   });
-  return static_cast<int>(tracks.active().size());
 }
 
 }  // namespace plumb::vo

@@ -1,7 +1,16 @@
-/// Where the tracks are in the newest image: search from the previous image, then re-anchoring to the host.
+/// Positions of the tracks in the newest image: a search from image to image, then an alignment
+/// with the host keyframe.
 ///
-/// The search chains positions from frame to frame, which drifts; the anchor compares with the patch in the host
-/// keyframe, warped by the predicted motion, which does not.
+/// The search (klt.hpp) starts at a predicted position. It compares with the previous image, so
+/// that its errors accumulate. The alignment compares with the patch in the host keyframe, warped
+/// by the motion in between, and removes this drift.
+///
+/// Frames:
+///   img: level 0 of the pyramids.
+/// Units:
+///   Pixels, seconds; lengths in [vo].
+/// Memory:
+///   One entry per track of the pool, allocated by the constructor.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +18,7 @@
 
 #include "core/camera_model.hpp"
 #include "core/pyramid.hpp"
+#include "modules/vo/klt.hpp"
 #include "modules/vo/track.hpp"
 #include "modules/vo/window.hpp"
 
@@ -18,43 +28,49 @@ class Tracker {
  public:
   Tracker(const CameraModel& camera, int track_capacity);
 
-  /// Starts a frame, `dt_s` after the image before: the newest positions become the previous ones.
+  /// Begins an image, `dt_s` after the previous one. The newest positions become the previous ones.
   void begin(TrackTable& tracks, double dt_s);
 
-  /// Where to search: by pose and inverse depth, or by repeating the last image motion.
+  /// Predicts positions from the poses of both images and the inverse depths.
   void predict_by_pose(const TrackTable& tracks, const Window& window, const Se3& T_prev_world,
                        const Se3& T_cam_world);
+  /// Predicts positions by repeating the last image motion of each track.
   void predict_by_flow(const TrackTable& tracks);
 
-  /// Searches the tracks not found yet, with a backward check. `wide` starts on the coarsest level, otherwise the
-  /// level follows from how good the guess is. Returns how many are found in all.
+  /// Searches the tracks that were not found yet. Tracks with uncertain depth must also be found on
+  /// the way back. With `wide`, the search starts on the coarsest level, otherwise on the level
+  /// that the standard deviation of the prediction asks for. Returns how many are found in total.
   int search(const Pyramid& from, const Pyramid& to, TrackTable& tracks, bool wide);
   /// Retires the tracks that the search did not find.
   void drop_missing(TrackTable& tracks);
 
-  /// Aligns every track with its host patch; those that do not match are retired. Returns how many are left.
-  int anchor(const ImageView& image, TrackTable& tracks, const Window& window,
-             const Se3& T_cam_world);
+  /// Aligns every active track with its patch in the host keyframe. Tracks that do not match are
+  /// retired.
+  /// @param T_cam_world  pose of `image`
+  void align_to_hosts(const ImageView& image, TrackTable& tracks, const Window& window,
+                      const Se3& T_cam_world);
 
  private:
-  struct Guess {
+  struct Prediction {
     Eigen::Vector2f px;
-    float scale = 1.0F;   // apparent size now / before
-    float std_px = 0.0F;  // how far off the guess may be
+    float scale = 1.0F;   // apparent size in the newest image / in the previous one
+    float std_px = 0.0F;  // standard deviation of px
   };
-  [[nodiscard]] bool anchor_one(const ImageView& image, Track& track, const ImageView& host_image,
-                                const Se3& T_cam_host) const;
+  [[nodiscard]] KltMatch find(const Pyramid& from, const Pyramid& to, const Track& track,
+                              const Prediction& prediction, bool wide) const;
+  [[nodiscard]] bool align(const ImageView& image, Track& track, const ImageView& host_image,
+                           const Se3& T_cam_host) const;
   [[nodiscard]] bool inside(const Eigen::Vector2d& px) const;
-  void place(const Eigen::Vector2d& px, Track& track) const;
+  void set_position(const Eigen::Vector2d& px, Track& track) const;
 
   CameraModel camera_;
-  std::vector<Guess> guesses_;         // by track index
-  std::vector<unsigned char> found_;   // by track index
-  std::vector<Eigen::Vector2d> flow_;  // by track index, of the frame before
+  std::vector<Prediction> predictions_;  // by index of the track
+  std::vector<unsigned char> found_;     // by index of the track
+  std::vector<Eigen::Vector2d> flow_;    // by index of the track, up to the previous image
   std::vector<double> scratch_;
   double dt_s_ = 0.0;
-  double surprise_px_ =
-      0.0;  // median distance between guess and result where depth was known, last search
+  // Median error of the last predictions of tracks with known depth.
+  double prediction_error_px_ = 0.0;
 };
 
 }  // namespace plumb::vo

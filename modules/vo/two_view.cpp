@@ -11,16 +11,16 @@ namespace plumb::vo {
 namespace {
 
 constexpr int kMinPairs = 20;
-constexpr int kMaxRounds = 300;
-constexpr double kConfidence = 0.999;
+constexpr int kMaxSamples = 300;
+constexpr double kConfidence = 0.999;  // that one of the samples has no outlier
 constexpr double kInlierPx = 1.0;
 
-struct Epipolar {
-  double error = 0.0;  // Sampson, normalised units
+struct SampsonError {
+  double error = 0.0;  // normalised units
   double inv_norm = 0.0;
 };
 
-Epipolar sampson(const Eigen::Matrix3d& E, const RayPair& pair) {
+SampsonError sampson(const Eigen::Matrix3d& E, const RayPair& pair) {
   const Eigen::Vector3d a = pair.first.homogeneous();
   const Eigen::Vector3d b = pair.second.homogeneous();
   const Eigen::Vector3d Ea = E * a;
@@ -30,9 +30,9 @@ Epipolar sampson(const Eigen::Matrix3d& E, const RayPair& pair) {
   return {b.dot(Ea) * inv_norm, inv_norm};
 }
 
-// Truncated quadratic score (MSAC): lower is better.
-double score(const Eigen::Matrix3d& E, const std::vector<RayPair>& pairs, double gate,
-             int* num_inliers) {
+// Returns the sum of the squared errors, each truncated at the gate.
+double msac_cost(const Eigen::Matrix3d& E, const std::vector<RayPair>& pairs, double gate,
+                 int* num_inliers) {
   double sum = 0.0;
   int inliers = 0;
   for (const RayPair& pair : pairs) {
@@ -45,15 +45,18 @@ double score(const Eigen::Matrix3d& E, const std::vector<RayPair>& pairs, double
   return sum;
 }
 
-int rounds_needed(int num_inliers, std::size_t num_pairs) {
-  const double share = static_cast<double>(num_inliers) / static_cast<double>(num_pairs);
-  const double miss = 1.0 - std::pow(share, 5.0);
-  if (miss <= 0.0) return 1;
-  const double rounds = std::log(1.0 - kConfidence) / std::log(std::min(miss, 1.0 - 1e-9));
-  return static_cast<int>(std::min(rounds, 1.0 * kMaxRounds)) + 1;
+// Returns the number of samples of five after which one has no outlier with kConfidence.
+int samples_needed(int num_inliers, std::size_t num_pairs) {
+  const double inlier_ratio = static_cast<double>(num_inliers) / static_cast<double>(num_pairs);
+  const double outlier_probability = 1.0 - std::pow(inlier_ratio, 5.0);
+  if (outlier_probability <= 0.0) return 1;
+  const double num_samples =
+      std::log(1.0 - kConfidence) / std::log(std::min(outlier_probability, 1.0 - 1e-9));
+  return static_cast<int>(std::min(num_samples, 1.0 * kMaxSamples)) + 1;
 }
 
-std::array<RayPair, 5> draw(const std::vector<RayPair>& pairs, Random& random) {
+// Draws five different pairs.
+std::array<RayPair, 5> draw_sample(const std::vector<RayPair>& pairs, Random& random) {
   std::array<std::size_t, 5> chosen{};
   std::array<RayPair, 5> sample;
   for (std::size_t i = 0; i < 5; ++i) {
@@ -66,6 +69,7 @@ std::array<RayPair, 5> draw(const std::vector<RayPair>& pairs, Random& random) {
   return sample;
 }
 
+// Counts the inliers that lie before both cameras.
 int count_in_front(const Se3& T, const std::vector<RayPair>& pairs, double gate) {
   const Eigen::Matrix3d E = hat(T.t) * T.R;
   int count = 0;
@@ -77,7 +81,7 @@ int count_in_front(const Se3& T, const std::vector<RayPair>& pairs, double gate)
   return count;
 }
 
-// The one of E's four factorisations that puts most points in front of both cameras.
+// Returns the one of the four decompositions of E that has most inliers before both cameras.
 TwoView decompose(const Eigen::Matrix3d& E, const std::vector<RayPair>& pairs, double gate) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(E, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d U = svd.matrixU();
@@ -88,16 +92,17 @@ TwoView decompose(const Eigen::Matrix3d& E, const std::vector<RayPair>& pairs, d
   W << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
   TwoView best;
   for (int i = 0; i < 4; ++i) {
-    const Eigen::Matrix3d turn = i < 2 ? W : Eigen::Matrix3d(W.transpose());
-    const Se3 T{U * turn * V.transpose(), (i % 2 == 0 ? 1.0 : -1.0) * U.col(2)};
+    const Eigen::Matrix3d quarter_turn = i < 2 ? W : Eigen::Matrix3d(W.transpose());
+    const Se3 T{U * quarter_turn * V.transpose(), (i % 2 == 0 ? 1.0 : -1.0) * U.col(2)};
     const int count = count_in_front(T, pairs, gate);
     if (count > best.num_inliers) best = {T, count, true};
   }
   return best;
 }
 
-// Gauss-Newton on the Sampson error: three angles and two for the direction of t, Cauchy weights.
-void polish(const std::vector<RayPair>& pairs, double gate, Se3* T) {
+// Refines the pose by Gauss-Newton on the Sampson error, over three angles and two parameters of
+// the direction of t.
+void refine_pose(const std::vector<RayPair>& pairs, double gate, Se3* T) {
   constexpr int kIterations = 10;
   const double kernel2 = gate * gate * 0.25;
   for (int i = 0; i < kIterations; ++i) {
@@ -110,7 +115,7 @@ void polish(const std::vector<RayPair>& pairs, double gate, Se3* T) {
     Eigen::Matrix<double, 5, 5> H = Eigen::Matrix<double, 5, 5>::Zero();
     Eigen::Matrix<double, 5, 1> b = Eigen::Matrix<double, 5, 1>::Zero();
     for (const RayPair& pair : pairs) {
-      const Epipolar e = sampson(E, pair);
+      const SampsonError e = sampson(E, pair);
       const Eigen::Vector3d x2 = pair.second.homogeneous();
       const Eigen::Vector3d y = T->R * pair.first.homogeneous();
       Eigen::Matrix<double, 5, 1> J;
@@ -134,14 +139,14 @@ void polish(const std::vector<RayPair>& pairs, double gate, Se3* T) {
 }  // namespace
 
 bool triangulate(const RayPair& pair, const Se3& T_second_first, double* rho) {
-  // z2 y2 = R y1 z1 + t: cross with y2 to get z1, then rho = 1 / z1.
+  // z2 y2 = z1 y1 + t with y1 = R x1. The cross product with y2 eliminates z2:
+  // a + rho c = 0 with a = y2 x y1, c = y2 x t and rho = 1 / z1.
   const Eigen::Vector3d y1 = T_second_first.R * pair.first.homogeneous();
   const Eigen::Vector3d y2 = pair.second.homogeneous();
   const Eigen::Vector3d a = y2.cross(y1);
   const Eigen::Vector3d c = y2.cross(T_second_first.t);
   const double cc = c.squaredNorm();
   if (cc < 1e-18) return false;
-  // a z1 + c = 0  ->  rho = -(a.c) / (c.c)
   *rho = -a.dot(c) / cc;
   return *rho > 0.0 && y1.z() + *rho * T_second_first.t.z() > 0.0;
 }
@@ -156,24 +161,24 @@ TwoView solve_two_view(const std::vector<RayPair>& pairs, double focal_px, const
   double lowest = 1e300;
   if (guess.t.squaredNorm() > 0.0) {
     best = hat(guess.t.normalized()) * guess.R;
-    lowest = score(best, pairs, gate, &inliers);
+    lowest = msac_cost(best, pairs, gate, &inliers);
   }
-  int rounds = kMaxRounds;
+  int num_samples = kMaxSamples;
   EssentialSolutions solutions;
-  for (int i = 0; i < rounds; ++i) {
-    solve_five_point(draw(pairs, random), &solutions);
+  for (int i = 0; i < num_samples; ++i) {
+    solve_five_point(draw_sample(pairs, random), &solutions);
     for (const Eigen::Matrix3d& E : solutions) {
       int count = 0;
-      const double s = score(E, pairs, gate, &count);
-      if (s >= lowest) continue;
-      lowest = s;
+      const double cost = msac_cost(E, pairs, gate, &count);
+      if (cost >= lowest) continue;
+      lowest = cost;
       best = E;
-      rounds = std::min(rounds, rounds_needed(count, pairs.size()));
+      num_samples = std::min(num_samples, samples_needed(count, pairs.size()));
     }
   }
   result = decompose(best, pairs, gate);
   if (!result.ok) return result;
-  polish(pairs, gate, &result.T_second_first);
+  refine_pose(pairs, gate, &result.T_second_first);
   result.num_inliers = count_in_front(result.T_second_first, pairs, gate);
   result.ok = result.num_inliers >= kMinPairs;
   return result;
@@ -187,7 +192,7 @@ RotationFit fit_rotation(const std::vector<RayPair>& pairs, double focal_px,
   for (int i = 0; i <= kIterations; ++i) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Identity() * 1e-12;
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    // The kernel narrows from 16 to 1 px: what is left then is parallax and moving things.
+    // The kernel narrows from 16 to 1 px, so that parallax and moving objects lose their weight.
     const double kernel = std::max(1.0, 16.0 / (1 << i));
     scratch.clear();
     for (const RayPair& pair : pairs) {

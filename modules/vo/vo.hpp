@@ -1,12 +1,20 @@
-/// Monocular visual odometry: keyframe-anchored inverse-depth tracks and a windowed refinement.
+/// Monocular visual odometry.
 ///
-/// Pure algorithm: no clock, no I/O, no heap after construction. `main.cpp` is the process around
-/// it.
+/// Corners are tracked from image to image. Each has its inverse depth in the keyframe that first
+/// saw it, and a sliding window of frames is refined by bundle adjustment. The steps are those of
+/// pipeline.hpp. The library has no clock and no input or output; VoNode connects it to messages.
 ///
-/// Frames   cam: x right, y down, z forward.  T_a_b maps b to a.
-/// Units    lengths in VO's own, slowly drifting unit [vo]; `scale_epoch` names it. Pixels in img,
-/// radians, seconds. Memory   everything is sized by VoConfig and the camera's image size at
-/// construction.
+/// Frames:
+///   cam: x right, y down, z forward, origin at the optical centre.
+///   img: u right, v down, pixels; (0,0) is the centre of the upper left pixel.
+///   T_a_b maps coordinates in b to coordinates in a.
+/// Units:
+///   Lengths in a unit of visual odometry's own, [vo], which drifts slowly. `scale_epoch` counts
+///   the times that this unit was lost. Pixels, radians, seconds.
+/// Memory:
+///   Everything is sized by VoConfig and the size of the image, and allocated by the constructor.
+/// Errors:
+///   A failure is a status with a reason. The next image is always accepted.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +34,7 @@ namespace plumb {
 inline constexpr std::size_t kMaxRoadPoints = 384;
 inline constexpr std::size_t kMaxWindowPoses = 12;
 
-/// Same numbers as vo_motion_t.STATUS_* (asserted in vo_wire.cpp).
+/// The numbers are those of vo_motion_t.STATUS_*, which explains them.
 enum class VoStatus : std::int8_t {
   kOk = 0,
   kInitializing = 1,
@@ -36,7 +44,7 @@ enum class VoStatus : std::int8_t {
   kLost = 5,
 };
 
-/// Same numbers as vo_motion_t.REASON_*.
+/// The numbers are those of vo_motion_t.REASON_*.
 enum class VoReason : std::int8_t {
   kNone = 0,
   kFirstFrame = 1,
@@ -54,22 +62,23 @@ enum class VoReason : std::int8_t {
 
 struct VoInput {
   std::int64_t capture_us = 0;  ///< mid-exposure
-  std::int64_t seq = 0;         ///< +1 per captured frame; a gap is a lost frame
-  ImageView image;              ///< grey, size of the camera model; need not outlive the call
+  std::int64_t seq = 0;         ///< increases by one per captured frame
+  ImageView image;              ///< grey, of the camera's size; it is not used after the call
 };
 
+/// Pose of an earlier frame as it is refined now.
 struct WindowPose {
-  std::int64_t seq = 0;
-  Se3 T_window_cam;  ///< cam now -> cam of frame `seq`, [vo]
+  std::int64_t seq = 0;  ///< of the earlier frame
+  Se3 T_window_cam;      ///< [vo] from cam of the newest image to cam of the earlier one
 };
 
-/// A triangulated point below the horizon. Floats, because that is what travels: replay sees live's
-/// bits.
+/// A triangulated point below the horizon. The numbers are floats as in vo_motion_t, so that the
+/// message does not change them.
 struct RoadPoint {
   Eigen::Vector3f p_cam = Eigen::Vector3f::Zero();  ///< [vo]
-  Eigen::Vector2f px = Eigen::Vector2f::Zero();     ///< where it is seen in the newest image
-  float rel_std = 0.0F;                             ///< 1-sigma of ln depth
-  std::int16_t num_obs = 0;
+  Eigen::Vector2f px = Eigen::Vector2f::Zero();     ///< position in the newest image
+  float rel_std = 0.0F;                             ///< standard deviation of ln depth
+  std::int16_t num_obs = 0;                         ///< number of images that saw the point
 };
 
 struct VoOutput {
@@ -78,36 +87,39 @@ struct VoOutput {
   VoStatus status = VoStatus::kLost;
   VoReason reason = VoReason::kNone;
   std::int32_t scale_epoch = 0;
-  double scale_carry_std =
-      0.0;  ///< 1-sigma of ln(unit now / unit of the previous epoch); NaN when unknown
+  /// Standard deviation of ln(unit now / unit of the previous epoch), in the frame that begins a
+  /// new epoch; NaN when the ratio is not known. 0 in all other frames.
+  double scale_carry_std = 0.0;
 
-  std::int64_t prev_seq = -1;
-  Se3 T_prev_cam;                            ///< [vo]
-  Matrix6d cov_prev_cam = Matrix6d::Zero();  ///< of (t, right-perturbation of R)
+  std::int64_t prev_seq = -1;                ///< of the previous image; -1 for the first one
+  Se3 T_prev_cam;                            ///< [vo] from cam now to cam of the previous image
+  Matrix6d cov_prev_cam = Matrix6d::Zero();  ///< of (t, right perturbation of R)
 
   FixedVector<WindowPose, kMaxWindowPoses> window;  ///< newest first
 
-  int num_tracked = 0;
-  int num_inliers = 0;
-  int num_new = 0;
-  bool is_keyframe = false;
-  double median_flow_px = 0.0;
-  double median_parallax_px = 0.0;
-  double rms_residual_px = 0.0;
+  int num_tracked = 0;              ///< features tracked into this image
+  int num_inliers = 0;              ///< number of those that agree with the pose
+  int num_new = 0;                  ///< features first seen in this image
+  bool is_keyframe = false;         ///< this image became a keyframe
+  double median_flow_px = 0.0;      ///< from the previous image
+  double median_parallax_px = 0.0;  ///< rotation-compensated, from the last keyframe
+  double rms_residual_px = 0.0;     ///< of the inliers
 
   FixedVector<RoadPoint, kMaxRoadPoints> road_points;
 };
 
-/// One `update` per image, in order. Deterministic in config, camera, seed and the inputs.
+/// Call update() once per image, in order of time. The results depend on nothing but configuration,
+/// camera, seed and images.
 class VisualOdometry {
  public:
-  /// @pre config inside the ranges of its visit(); camera.width_px, height_px >= 64
+  /// @param seed  seed of the random samples in RANSAC
+  /// @pre config is inside the ranges of its visit(); camera.width_px, height_px >= 64
   VisualOdometry(const VoConfig& config, const CameraModel& camera, std::uint64_t seed);
   ~VisualOdometry();
   VisualOdometry(const VisualOdometry&) = delete;
   VisualOdometry& operator=(const VisualOdometry&) = delete;
 
-  /// Takes one image. The result stays valid until the next call.
+  /// Processes one image. The result is valid until the next call.
   const VoOutput& update(const VoInput& input, StageProbe& probe);
 
  private:

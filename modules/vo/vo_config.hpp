@@ -1,4 +1,4 @@
-/// Every setting of plumb-vo; visit() is the one list of keys, ranges and meanings.
+/// The settings of visual odometry.
 #pragma once
 
 #include <string>
@@ -18,28 +18,35 @@ struct VoConfig {
   double dark_grey = 6.0;
   double flat_std_grey = 3.0;
 
+  /// Calls field(key, member, lowest, highest, meaning) for every setting. This is the one list of
+  /// keys and ranges.
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
-    field("vo.max_tracks", c.max_tracks, 64, 1000, "features tracked at once");
-    field(
-        "vo.min_corner_grey2", c.min_corner_grey2, 0.05, 100.0,
-        "smaller eigenvalue of a corner's mean structure tensor; a fifth of it below the horizon");
+    field("vo.max_tracks", c.max_tracks, 64, 1000,
+          "largest number of features that are tracked at once");
+    field("vo.min_corner_grey2", c.min_corner_grey2, 0.05, 100.0,
+          "threshold of a corner: smaller eigenvalue of the mean structure tensor; below the "
+          "horizon, "
+          "15 % of it");
     field("vo.keyframe_parallax_px", c.keyframe_parallax_px, 5.0, 100.0,
-          "median rotation-compensated flow that makes a keyframe");
-    field("vo.keyframe_overlap_ratio", c.keyframe_overlap_ratio, 0.2, 0.95,
-          "share of the last keyframe's features still tracked, below which the next one is made");
+          "median rotation-compensated flow above which a keyframe is made");
+    field(
+        "vo.keyframe_overlap_ratio", c.keyframe_overlap_ratio, 0.2, 0.95,
+        "share of the last keyframe's features that are still tracked, below which the next one is "
+        "made");
     field("vo.fixed_keyframes", c.fixed_keyframes, 1, 6,
-          "oldest keyframes that refinement leaves alone");
+          "number of the oldest keyframes that refinement does not move");
     field("vo.start_flow_px", c.start_flow_px, 2.0, 40.0,
-          "median flow at which the first two views are solved");
+          "median flow from which the first two views are solved");
     field("vo.hold_flow_px", c.hold_flow_px, 0.05, 1.0,
-          "flow due to translation below which the camera's place is held");
+          "flow due to translation below which there is zero motion");
     field("vo.coast_limit_s", c.coast_limit_s, 0.1, 10.0,
-          "predicted for no longer than this, then lost");
+          "longest time for which the motion is predicted; then the status is lost");
     field("vo.coast_decay_s", c.coast_decay_s, 0.1, 60.0,
-          "time constant of the predicted motion's decay");
-    field("vo.dark_grey", c.dark_grey, 0.0, 64.0, "images with a lower mean are dark");
-    field("vo.flat_std_grey", c.flat_std_grey, 0.0, 32.0, "images with a lower deviation are flat");
+          "time constant with which the predicted motion decays");
+    field("vo.dark_grey", c.dark_grey, 0.0, 64.0, "mean below which an image is dark");
+    field("vo.flat_std_grey", c.flat_std_grey, 0.0, 32.0,
+          "standard deviation below which an image is flat");
   }
 };
 

@@ -1,7 +1,14 @@
-/// Everything plumb-vo does between the bytes of CAMERA and the message VO_MOTION; the replay runs the same class.
+/// Everything that plumb-vo does between the bytes of CAMERA and the message VO_MOTION. The replay
+/// runs the same class.
 ///
-/// The first sound calibration makes the estimator; a different one later is refused (restart the process), the same
-/// one again is ignored. An image that comes before it yields a motion that says LOST, NO_CALIBRATION.
+/// The first valid calibration creates the estimator. The same calibration is ignored later, and a
+/// different one is refused: the process must be restarted to use it. An image that comes before
+/// the calibration yields a motion with LOST and NO_CALIBRATION.
+///
+/// Memory:
+///   The decoder and the estimator are allocated with the first calibration; nothing after it.
+/// Errors:
+///   take_*() return null when the message was taken, else the reason as a string literal.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +25,18 @@ namespace plumb {
 
 class VoNode {
  public:
-  /// `probe` outlives the node; a "decode" stage is marked before the estimator's own.
+  /// @param probe  marks the stages "decode", those of the estimator, and "to_wire"; it must
+  /// outlive
+  ///               the node
   VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe);
 
-  /// Null when taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes);
 
-  /// What the newest take_image() is to publish; null when it yielded nothing.
+  /// Returns the motion to publish after take_image(), or null when there is none.
   [[nodiscard]] const vo_motion_t* motion() const { return fresh_ ? &motion_ : nullptr; }
   [[nodiscard]] bool calibrated() const { return estimator_.has_value(); }
+  /// Returns the number of images that never came, by the gaps in their numbers.
   [[nodiscard]] std::int64_t num_lost() const { return losses_.num_lost(); }
 
  private:

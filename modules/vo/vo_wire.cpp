@@ -82,9 +82,9 @@ const char* points_from_wire(const vo_motion_t& message, VoOutput* output) {
     point.px = Eigen::Vector2f(px[0], px[1]);
     point.rel_std = message.road_points_rel_std[i];
     point.num_obs = message.road_points_num_obs[i];
-    const bool holds = point.p_cam.allFinite() && point.p_cam.z() > 0.0F && point.px.allFinite() &&
+    const bool valid = point.p_cam.allFinite() && point.p_cam.z() > 0.0F && point.px.allFinite() &&
                        std::isfinite(point.rel_std) && point.rel_std >= 0.0F && point.num_obs >= 0;
-    if (!holds || !output->road_points.push_back(point))
+    if (!valid || !output->road_points.push_back(point))
       return "VO motion: a road point is not a point before the camera";
   }
   return nullptr;
@@ -110,8 +110,8 @@ const char* summary_from_wire(const vo_motion_t& message, VoOutput* output) {
 }  // namespace
 
 void to_wire(const VoOutput& output, vo_motion_t* message) {
-  std::memset(message, 0,
-              sizeof *message);  // rows beyond the counts are zero, not the previous frame's
+  // Without this, rows beyond the counts would keep the values of the previous frame.
+  std::memset(message, 0, sizeof *message);
   message->utime = output.capture_us;
   message->seq = output.seq;
   message->status = static_cast<std::int8_t>(output.status);
@@ -138,7 +138,7 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
   if (message.reason < vo_motion_t::REASON_NONE || message.reason > vo_motion_t::REASON_RESTARTED)
     return "VO motion: unknown reason";
   if (std::isinf(message.scale_carry_std) || message.scale_carry_std < 0.0)
-    return "VO motion: scale deviation is neither a deviation nor NaN";
+    return "VO motion: the standard deviation of the scale is negative or infinite";
   output->capture_us = message.utime;
   output->seq = message.seq;
   output->status = static_cast<VoStatus>(message.status);

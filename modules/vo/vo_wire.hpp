@@ -1,4 +1,4 @@
-/// VoOutput <-> vo_motion_t. No LCM instance.
+/// VoOutput <-> vo_motion_t, without an instance of LCM.
 #pragma once
 
 #include "modules/vo/vo.hpp"
@@ -6,10 +6,12 @@
 
 namespace plumb {
 
+/// Writes all fields. Rows beyond the counts are zero.
 void to_wire(const VoOutput& output, vo_motion_t* message);
 
-/// Null, and `output` filled, when the message keeps its contract (counts and enumerations in range, numbers finite
-/// where they must be, unit quaternions, window newest first); else why not, as a literal.
+/// Reads a message. Returns null when it is valid: counts and enumerations are in range, numbers
+/// are finite, quaternions are of unit length, and the window has the newest frame first. Else
+/// returns the reason as a string literal, and `output` is unspecified.
 [[nodiscard]] const char* from_wire(const vo_motion_t& message, VoOutput* output);
 
 }  // namespace plumb

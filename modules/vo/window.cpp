@@ -6,8 +6,9 @@ namespace plumb::vo {
 namespace {
 
 constexpr std::size_t kRowAlignment = 32;
-constexpr std::size_t kTailBytes = 64;  // patches load whole vectors
+constexpr std::size_t kTailBytes = 64;  // vector loads may read beyond the last pixel
 
+// The last one is returned when none is free, which the preconditions of the callers exclude.
 template <std::size_t N>
 int first_free(const std::array<bool, N>& used) {
   std::size_t i = 0;
@@ -46,11 +47,11 @@ int Window::add(std::int64_t seq, const Se3& T_cam_world) {
 }
 
 void Window::make_keyframe(int slot, const ImageView& image) {
-  const int store = first_free(image_used_);
-  image_used_[static_cast<std::size_t>(store)] = true;
-  (*this)[slot].image = store;
+  const int image_index = first_free(image_used_);
+  image_used_[static_cast<std::size_t>(image_index)] = true;
+  (*this)[slot].image = image_index;
   ++num_keyframes_;
-  const ImageView& view = views_[static_cast<std::size_t>(store)];
+  const ImageView& view = views_[static_cast<std::size_t>(image_index)];
   std::uint8_t* to = pixels_.data() + (view.data - pixels_.data());
   for (int v = 0; v < view.height_px; ++v) {
     std::memcpy(to + v * view.stride_bytes, image.row(v), static_cast<std::size_t>(view.width_px));
@@ -59,7 +60,7 @@ void Window::make_keyframe(int slot, const ImageView& image) {
 
 void Window::remove(int slot) {
   FixedVector<int, kMaxFrames> rest;
-  int heir = -1;  // the next frame in time, or the last one left
+  int successor = -1;  // the next frame in time, or the last one that is left
   bool passed = false;
   bool found_next = false;
   for (const int other : order_) {
@@ -68,16 +69,17 @@ void Window::remove(int slot) {
       continue;
     }
     static_cast<void>(rest.push_back(other));
-    if (!found_next) heir = other;
+    if (!found_next) successor = other;
     found_next = passed;
   }
-  if (heir >= 0) {
-    const Se3 T_slot_heir = (*this)[slot].T_cam_world * (*this)[heir].T_cam_world.inverse();
+  if (successor >= 0) {
+    const Se3 T_slot_successor =
+        (*this)[slot].T_cam_world * (*this)[successor].T_cam_world.inverse();
     for (int i = 0; i < num_history_; ++i) {
-      Past& past = history_[static_cast<std::size_t>(i)];
+      PastFrame& past = history_[static_cast<std::size_t>(i)];
       if (past.slot != slot) continue;
-      past.T_cam_slot = past.T_cam_slot * T_slot_heir;
-      past.slot = heir;
+      past.T_cam_slot = past.T_cam_slot * T_slot_successor;
+      past.slot = successor;
     }
   }
   order_ = rest;
@@ -111,12 +113,12 @@ int Window::stale_frame() const {
   return -1;
 }
 
-void Window::remember(std::int64_t seq, const Se3& T_cam_world, bool seen) {
+void Window::remember(std::int64_t seq, const Se3& T_cam_world, bool measured) {
   const int slot = newest();
-  push_history({seq, slot, T_cam_world * (*this)[slot].T_cam_world.inverse(), seen});
+  push_history({seq, slot, T_cam_world * (*this)[slot].T_cam_world.inverse(), measured});
 }
 
-void Window::push_history(const Past& past) {
+void Window::push_history(const PastFrame& past) {
   if (num_history_ < kHistory) ++num_history_;
   for (int i = num_history_ - 1; i > 0; --i) {
     history_[static_cast<std::size_t>(i)] = history_[static_cast<std::size_t>(i - 1)];

@@ -1,9 +1,16 @@
-/// The frames that refinement may move: keyframes with their images, and the last few frames.
+/// The sliding window of frames that refinement may move: keyframes with their images, and the last
+/// few frames.
 ///
-/// A frame sits in one slot for as long as it stays. The history keeps every recent frame's pose relative to some
-/// frame of the window, so poses handed out follow later refinements.
+/// A frame has a slot for as long as it is in the window. The history has every recent frame, in
+/// the window or not, with its pose relative to a frame of the window. Poses that were published
+/// therefore follow later refinements.
 ///
-/// Frames   world: cam of the first frame.  Lengths in [vo].
+/// Frames:
+///   world: cam of the first image.  T_a_b maps coordinates in b to coordinates in a.
+/// Units:
+///   Lengths in [vo].
+/// Memory:
+///   The images of kMaxKeyframes + 1 keyframes, allocated by the constructor; the rest in place.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,72 +26,80 @@
 namespace plumb::vo {
 
 inline constexpr int kMaxKeyframes = 8;
-inline constexpr int kNumRecent = 3;
+inline constexpr int kNumRecent = 3;  ///< number of newest frames that stay without being keyframes
 inline constexpr int kHistory = 12;
 
 struct Frame {
   std::int64_t seq = 0;
   Se3 T_cam_world;
-  int image = -1;  ///< store index of a keyframe's image, -1 for other frames
+  int image = -1;  ///< index of a keyframe's image, -1 for other frames
   [[nodiscard]] bool is_keyframe() const { return image >= 0; }
+};
+
+/// A recent frame, whether or not it still has a slot.
+struct PastFrame {
+  std::int64_t seq = 0;
+  int slot = -1;         ///< frame of the window to which its pose is relative
+  Se3 T_cam_slot;        ///< from cam of that frame; the identity when it is that frame
+  bool measured = true;  ///< false when its pose was predicted
 };
 
 class Window {
  public:
   Window(int width_px, int height_px);
 
+  /// Removes all frames and the history.
   void clear();
-  /// Adds the newest frame and returns its slot.
-  /// @pre a slot is free (Keyframes::trim_recent() frees one per frame)
+  /// Adds a frame as the newest one and returns its slot.
+  /// @pre a slot is free; Keyframes::trim_recent() and promote() see to that
   int add(std::int64_t seq, const Se3& T_cam_world);
-  /// Stores `image` with the frame, which makes it a host. @pre num_keyframes() <= kMaxKeyframes
+  /// Copies `image`, which makes the frame a keyframe. @pre num_keyframes() <= kMaxKeyframes
   void make_keyframe(int slot, const ImageView& image);
+  /// Removes a frame. The history that is relative to it becomes relative to the next frame in
+  /// time.
   void remove(int slot);
 
-  /// Slots, oldest frame first.
+  /// Returns the slots in order of time, the oldest frame first.
   [[nodiscard]] const FixedVector<int, kMaxFrames>& order() const { return order_; }
   [[nodiscard]] Frame& operator[](int slot) { return frames_[static_cast<std::size_t>(slot)]; }
   [[nodiscard]] const Frame& operator[](int slot) const {
     return frames_[static_cast<std::size_t>(slot)];
   }
+  /// Returns the image of a keyframe.
   [[nodiscard]] const ImageView& image(int slot) const {
     return views_[static_cast<std::size_t>((*this)[slot].image)];
   }
   [[nodiscard]] int num_keyframes() const { return num_keyframes_; }
+  /// Returns the slot of the newest frame. @pre the window is not empty
   [[nodiscard]] int newest() const { return order_[order_.size() - 1]; }
-  /// Newest keyframe's slot, -1 without one.
+  /// Returns the slot of the newest or the oldest keyframe, -1 when there is none.
   [[nodiscard]] int newest_keyframe() const;
   [[nodiscard]] int oldest_keyframe() const;
-  /// Oldest frame that is neither a keyframe nor one of the last kNumRecent, -1 without one.
+  /// Returns the slot of the oldest frame that is neither a keyframe nor one of the last kNumRecent
+  /// frames, -1 when there is none.
   [[nodiscard]] int stale_frame() const;
 
-  /// A frame that was handed out, whether or not it has a slot.
-  struct Past {
-    std::int64_t seq = 0;
-    int slot = -1;     ///< frame it hangs on
-    Se3 T_cam_slot;    ///< identity when it is that frame
-    bool seen = true;  ///< its pose was measured, not predicted
-  };
-  /// Newest first.
-  [[nodiscard]] const std::array<Past, kHistory>& history() const { return history_; }
+  /// Returns the recent frames, the newest one first. The first num_history() are valid.
+  [[nodiscard]] const std::array<PastFrame, kHistory>& history() const { return history_; }
   [[nodiscard]] int num_history() const { return num_history_; }
-  [[nodiscard]] Se3 past_pose(const Past& past) const {
+  /// Returns the pose T_cam_world of a frame of the history, as it is refined now.
+  [[nodiscard]] Se3 past_pose(const PastFrame& past) const {
     return past.T_cam_slot * (*this)[past.slot].T_cam_world;
   }
-  /// Remembers a frame that gets no slot of its own: it hangs on the newest one.
-  void remember(std::int64_t seq, const Se3& T_cam_world, bool seen);
+  /// Adds a frame to the history that gets no slot. Its pose is kept relative to the newest frame.
+  void remember(std::int64_t seq, const Se3& T_cam_world, bool measured);
 
  private:
-  void push_history(const Past& past);
+  void push_history(const PastFrame& past);
 
-  std::array<Frame, kMaxFrames> frames_{};
+  std::array<Frame, kMaxFrames> frames_{};  // by slot
   std::array<bool, kMaxFrames> used_{};
   FixedVector<int, kMaxFrames> order_;
   int num_keyframes_ = 0;
-  std::array<Past, kHistory> history_{};
+  std::array<PastFrame, kHistory> history_{};
   int num_history_ = 0;
-  std::vector<std::uint8_t> pixels_;
-  std::array<ImageView, kMaxKeyframes + 1> views_{};
+  std::vector<std::uint8_t> pixels_;                  // of all images
+  std::array<ImageView, kMaxKeyframes + 1> views_{};  // into pixels_, by Frame::image
   std::array<bool, kMaxKeyframes + 1> image_used_{};
 };
 

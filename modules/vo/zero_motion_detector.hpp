@@ -1,11 +1,17 @@
-/// Recognises a camera that stands still or only turns, and holds its position while it does.
+/// Detects a camera that stands still or turns on the spot, and keeps its position constant.
 ///
-/// The image motion that a fitted pose implies is compared with `vo.hold_flow_px`. The reference is the pose at which
-/// zero motion began, so that creeping adds up until it is seen.
+/// Without translation, the scale and the depths are not observable, and a small fitted translation
+/// would be noise that adds up to drift. The detector predicts the image motion of the tracks that
+/// a fitted pose implies. While the part that is due to translation stays below vo.hold_flow_px,
+/// the translation is zero. The reference is the pose at which zero motion began, so that a
+/// creeping camera moves away from it and is detected.
 ///
-/// Frames   world: cam of the first frame.
-/// Units    lengths in [vo], image motion in pixels.
-/// Memory   one number per track, taken at construction.
+/// Frames:
+///   world: cam of the first image.
+/// Units:
+///   Lengths in [vo], image motion in pixels.
+/// Memory:
+///   One number per track, allocated by the constructor.
 #pragma once
 
 #include <vector>
@@ -19,20 +25,22 @@ namespace plumb::vo {
 
 enum class ZeroMotion {
   kNone,         ///< the camera translates
-  kTranslation,  ///< it turns on the spot
-  kAll,          ///< it stands still
+  kTranslation,  ///< the translation is zero: it turns on the spot
+  kAll,          ///< translation and rotation are zero: it stands still
 };
 
 class ZeroMotionDetector {
  public:
   ZeroMotionDetector(const VoConfig& config, const CameraModel& camera);
 
-  /// Judges the pose of the newest image. @pre the window is not empty
+  /// Returns which parts of the motion to the newest image are zero, by its fitted pose.
+  /// @pre the window is not empty
   [[nodiscard]] ZeroMotion judge(const LocalMap& map, const Se3& T_cam_world);
-  /// The pose to report for the newest image. It is the held one; after kTranslation its rotation is fitted anew about
-  /// the held camera centre. @pre judge() has just returned `kind`, which is not kNone
+  /// Returns the pose of the newest image without the motion that is zero. After kAll it is the
+  /// reference. After kTranslation the reference is rotated: the rotation about its camera centre
+  /// is fitted to the tracks. @pre judge() has just returned `kind`, which is not kNone
   [[nodiscard]] const Se3& hold(const LocalMap& map, const Se3& T_cam_world, ZeroMotion kind);
-  /// The next zero motion begins with a reference of its own.
+  /// Drops the reference. The next zero motion begins with a reference of its own.
   void reset() { active_ = false; }
 
  private:
@@ -42,8 +50,8 @@ class ZeroMotionDetector {
   double max_flow_px_;
   CameraModel camera_;
   Eigen::Vector2d focal_px_;
-  bool active_ = false;
-  Se3 T_held_world_;  // where zero motion began
+  bool active_ = false;  // the last pose had zero motion, and T_ref_world_ is valid
+  Se3 T_ref_world_;      // pose at which zero motion began
   std::vector<double> flow_px_;
 };
 
