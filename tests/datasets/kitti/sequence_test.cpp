@@ -146,7 +146,7 @@ TEST_F(SequenceTest, RefusesFoldersThatAreNotKitti) {
   folder_.write("seq/calib.txt", test::kCalibration);
   folder_.write("seq/gt_ground_plane.txt", "0 0 1 0 1.6\n");
   folder_.write("seq/gt_ground_plane_velodyne.txt", "0 0 1 0 1.6\n");
-  expect_contains(error_of(options(seq)), "--planes names one");
+  expect_contains(error_of(options(seq)), "name one with --planes");
   const auto drive = test::write_raw(folder_, 2);
   std::filesystem::remove(folder_ / "date/calib_cam_to_cam.txt");
   expect_contains(error_of(options(drive)), "no calib_cam_to_cam.txt");
