@@ -13,12 +13,12 @@ constexpr double kLeastInformation = 1e-3;
 // Within one turn the road's crossfall, the car's lean and residual calibration errors keep their
 // sign: all images of the turn share one error, and VO's own scale is more accurate. Per unit of
 // turn_ratio.
-constexpr double kTurnGrowth = 40.0;
+constexpr double kTurnCorrelationGrowth = 40.0;
 
 }  // namespace
 
 double turn_correlation(const CueContext& context) {
-  const double growth = 1.0 + kTurnGrowth * context.turn_ratio;
+  const double growth = 1.0 + kTurnCorrelationGrowth * context.turn_ratio;
   return growth * growth;
 }
 
