@@ -28,6 +28,10 @@ static_assert(same(EgoStatus::kScaleHeld, ego_motion_t::STATUS_SCALE_HELD));
 static_assert(same(EgoStatus::kStandstill, ego_motion_t::STATUS_STANDSTILL));
 static_assert(same(EgoStatus::kCoasting, ego_motion_t::STATUS_COASTING));
 static_assert(same(EgoStatus::kLost, ego_motion_t::STATUS_LOST));
+static_assert(same(CueStatus::kUsed, ground_cue_t::STATUS_USED));
+static_assert(same(CueStatus::kAbsent, ground_cue_t::STATUS_ABSENT));
+static_assert(same(CueStatus::kGated, ground_cue_t::STATUS_GATED));
+static_assert(same(CueStatus::kFailed, ground_cue_t::STATUS_FAILED));
 static_assert(same(kMaxCues, ground_plane_t::MAX_CUES));
 
 constexpr double kUnitTolerance = 1e-6;

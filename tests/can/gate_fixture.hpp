@@ -47,6 +47,7 @@ inline ground_plane_t make_plane(std::int64_t seq, std::int8_t status = ground_p
   const double stds[] = {0.002, 0.003, 0.02 / 1.65};
   for (int i = 0; i < 3; ++i) m.cov[i][i] = stds[i] * stds[i];
   m.num_cues = 3;
+  m.cues.resize(3);
   m.cues[2].status = ground_cue_t::STATUS_ABSENT;
   return m;
 }

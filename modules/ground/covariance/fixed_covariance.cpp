@@ -31,7 +31,7 @@ constexpr double kIndependentStepRatio = 0.6;
 // do.
 constexpr double kObjectsCorrelatedImages = 10.0;
 
-double correlated_images(const CueContext& context) {
+double images_of_the_same_road(const CueContext& context) {
   return std::max(1.0, kIndependentStepRatio / std::max(1e-6, context.step_ratio)) *
          turn_correlation(context);
 }
@@ -59,11 +59,11 @@ double FixedCovariance::chord(const Chord& /*chord*/, const CueContext& /*contex
 }
 
 double FixedCovariance::dense_correlated_images(const CueContext& context) const {
-  return correlated_images(context);
+  return images_of_the_same_road(context);
 }
 
 double FixedCovariance::points_correlated_images(const CueContext& context) const {
-  return correlated_images(context);
+  return images_of_the_same_road(context);
 }
 
 double FixedCovariance::objects_correlated_images() const { return kObjectsCorrelatedImages; }
