@@ -3,9 +3,8 @@
 /// update() takes one image:
 ///   1. accept() compares size, time and number of the image with what is expected. judge_image()
 ///      refuses images that show nothing.
-///   2. Before there is a map, Initializer solves two views. After a refused image, coast()
-///   predicts
-///      the motion.
+///   2. For a refused image, coast() predicts the motion. Before there is a map, Initializer solves
+///      two views.
 ///   3. Otherwise track() searches the tracks in the image and fits its pose to them (localize).
 ///      The pose is one of a moving camera (handle_motion) or of one that does not translate
 ///      (handle_zero_motion). Without enough inliers, Initializer starts again.

@@ -25,9 +25,8 @@ struct VoConfig {
     field("vo.max_tracks", c.max_tracks, 64, 1000,
           "largest number of features that are tracked at once");
     field("vo.min_corner_grey2", c.min_corner_grey2, 0.05, 100.0,
-          "threshold of a corner: smaller eigenvalue of the mean structure tensor; below the "
-          "horizon, "
-          "15 % of it");
+          "threshold of a corner: smaller eigenvalue of the mean structure tensor; "
+          "15 % of it below the horizon");
     field("vo.keyframe_parallax_px", c.keyframe_parallax_px, 5.0, 100.0,
           "median rotation-compensated flow above which a keyframe is made");
     field(

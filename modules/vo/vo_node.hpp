@@ -25,8 +25,7 @@ namespace plumb {
 
 class VoNode {
  public:
-  /// @param probe  marks the stages "decode", those of the estimator, and "to_wire"; it must
-  /// outlive
+  /// @param probe  marks the stages "decode", those of the estimator, and "to_wire"; must outlive
   ///               the node
   VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe);
 

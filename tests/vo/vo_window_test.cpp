@@ -59,9 +59,9 @@ TEST(Window, HistoryHoldsTheLastTwelveNewestFirst) {
   for (int i = 1; i < 30; ++i) window.remember(i, at(0.1 * i), i % 2 == 0);
   EXPECT_EQ(window.num_history(), kHistory);
   for (int i = 0; i < kHistory; ++i) {
-    const Window::Past& past = window.history()[static_cast<std::size_t>(i)];
+    const PastFrame& past = window.history()[static_cast<std::size_t>(i)];
     EXPECT_EQ(past.seq, 29 - i);
-    EXPECT_EQ(past.seen, past.seq % 2 == 0);
+    EXPECT_EQ(past.measured, past.seq % 2 == 0);
     EXPECT_LT((window.past_pose(past).t - at(0.1 * static_cast<double>(past.seq)).t).norm(), 1e-12);
   }
 }
