@@ -133,8 +133,7 @@ const char* from_wire(const ground_plane_t& message, const Messages& messages, C
     return "unknown status";
   }
   if (message.reason < 0 || message.reason > kMaxReason) return "unknown reason";
-  if (message.num_cues < 0 ||
-      message.cues.size() != static_cast<std::size_t>(message.num_cues)) {
+  if (message.num_cues < 0 || message.cues.size() != static_cast<std::size_t>(message.num_cues)) {
     return "wrong number of cues";
   }
   if (validity_of(message) != CanValidity::kInvalid && !plane_is_sound(message)) {

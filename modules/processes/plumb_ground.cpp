@@ -18,8 +18,8 @@ class GroundProcess {
         models_(plumb::load_models(config.ground.model_file)),
         node_(
             config.ground, config.detections, &process.timer(),
-            [this](const auto& plane, const auto& ego) { publish(plane, ego); },
-            models_.ground, plumb::ground_factory(config, models_)),
+            [this](const auto& plane, const auto& ego) { publish(plane, ego); }, models_.ground,
+            plumb::ground_factory(config, models_)),
         plane_(process.bus(), plumb::kGroundPlane),
         ego_(process.bus(), plumb::kEgoMotion),
         mount_(process.bus(), plumb::kMount),

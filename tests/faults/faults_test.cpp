@@ -1,4 +1,5 @@
-/// The fault matrix itself: what is injected is what its row says, and the judge tells right from wrong.
+/// The fault matrix itself: what is injected is what its row says, and the judge tells right from
+/// wrong.
 
 #include <gtest/gtest.h>
 

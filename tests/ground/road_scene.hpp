@@ -28,8 +28,8 @@ struct Shutter {
   double bias = 0.0;
   double noise_grey = 0.0;
   int blur_px = 0;  ///< box of 2n+1 pixels, both ways
-  Se3 step =
-      {};  ///< motion on to the next image, 0.1 s later: matters when the camera's rows are read one by one
+  Se3 step = {};  ///< motion on to the next image, 0.1 s later: matters when the camera's rows are
+                  ///< read one by one
 };
 
 class GreyImage {

@@ -1,4 +1,5 @@
-// A log played by lcm-logplayer into the live processes gives the same bits as the replay, and nothing is lost.
+// A log played by lcm-logplayer into the live processes gives the same bits as the replay, and
+// nothing is lost.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -55,9 +56,9 @@ Expected replay(const std::string& log) {
   return expected;
 }
 
-// Per CAN identifier, and per place in a list of objects, what was said about each camera frame: without CRC, alive
-// counter, repeats, and bursts that say "not available" for want of input, which the log's end brings live and not in
-// the replay.
+// Per CAN identifier, and per place in a list of objects, what was said about each camera frame:
+// without CRC, alive counter, repeats, and bursts that say "not available" for want of input, which
+// the log's end brings live and not in the replay.
 std::map<std::uint32_t, std::vector<std::string>> said_on_can(const std::string& path) {
   constexpr std::uint32_t kFirstId = 0x3A0;
   constexpr std::uint32_t kStatusId =

@@ -1,4 +1,5 @@
-/// How roads bend and how well the direction of translation is known, out of drives drawn with both.
+/// How roads bend and how well the direction of translation is known, out of drives drawn with
+/// both.
 #include "tools/learn/train/bend_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ struct Drawn {
   double chord_std = 0.0;
 };
 
-/// Three drives of `num` frames, half a camera height each, over roads that bend by a first-order process.
+/// Three drives of `num` frames, half a camera height each, over roads that bend by a first-order
+/// process.
 std::vector<DriveSamples> drives_over(const Drawn& drawn, int num) {
   std::vector<DriveSamples> drives;
   std::mt19937_64 random(5);

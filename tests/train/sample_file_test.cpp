@@ -1,4 +1,5 @@
-/// Sample files: what is written is read back; what is not whole, of this version or of one kind is refused.
+/// Sample files: what is written is read back; what is not whole, of this version or of one kind is
+/// refused.
 #include "tools/learn/train/sample_file.hpp"
 
 #include <gtest/gtest.h>

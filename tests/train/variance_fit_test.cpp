@@ -1,4 +1,5 @@
-/// The variance fit finds the model that samples were drawn from, through outliers and known extra noise.
+/// The variance fit finds the model that samples were drawn from, through outliers and known extra
+/// noise.
 #include "tools/learn/train/variance_fit.hpp"
 
 #include <gtest/gtest.h>

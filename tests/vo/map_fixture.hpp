@@ -36,7 +36,8 @@ class MapFixture {
       initializer.update(time, map, motion, &out, probe);
     }
   }
-  /// Initialises on a straight drive with `step_m` per image. Returns the number of images that it took.
+  /// Initialises on a straight drive with `step_m` per image. Returns the number of images that it
+  /// took.
   int drive_until_done(double step_m, int most = 20) {
     for (int i = 0; i < most; ++i) {
       initialize({Eigen::Matrix3d::Identity(), {0.0, 0.0, step_m * i}});

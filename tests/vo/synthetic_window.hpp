@@ -19,8 +19,8 @@ struct SyntheticWindow {
   std::vector<Se3> T_cam_world;  // truth, by slot
   std::vector<double> rho;       // truth, by track index
 
-  /// `num_keyframes` one unit apart on a gentle curve; every track is hosted in one of the first half of them and seen
-  /// in every later frame it projects into.
+  /// `num_keyframes` one unit apart on a gentle curve; every track is hosted in one of the first
+  /// half of them and seen in every later frame it projects into.
   SyntheticWindow(int num_keyframes, int num_tracks, double noise_px, unsigned seed = 3) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

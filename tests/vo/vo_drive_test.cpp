@@ -354,8 +354,8 @@ TEST(Distortion, AResidualRadialTermIsTakenIntoAccount) {
   }
 }
 
-/// Root mean square of the turns' errors along a winding path, when rows are exposed over 30 of every 100 ms and VO is
-/// told `told_s`.
+/// Root mean square of the turns' errors along a winding path, when rows are exposed over 30 of
+/// every 100 ms and VO is told `told_s`.
 double turn_error_under_rolling_shutter(double told_s) {
   CameraModel shutter = test::scene_camera();
   shutter.readout_s = 0.03;

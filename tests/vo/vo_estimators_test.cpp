@@ -156,7 +156,8 @@ void disturb(SyntheticWindow& s) {
   for (const int index : s.tracks.active()) s.tracks[index].rho *= 1.0 + 0.1 * std::sin(index);
 }
 
-// The distance between the first two frames is the unit; only that can drift when one frame is held.
+// The distance between the first two frames is the unit; only that can drift when one frame is
+// held.
 double scale_of(const SyntheticWindow& s) {
   return s.window[s.last_slot()].T_cam_world.inverse().t.norm() /
          s.T_cam_world.back().inverse().t.norm();

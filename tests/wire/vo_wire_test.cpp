@@ -107,7 +107,8 @@ TEST(VoWire, RefusesDeviationsAndPointsThatAreNone) {
   const std::string cov = "VO motion: the covariance is not a covariance";
   EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][3] = kNan; }));
   EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][2] = -1e-9; }));
-  const std::string carry = "VO motion: the standard deviation of the scale is negative or infinite";
+  const std::string carry =
+      "VO motion: the standard deviation of the scale is negative or infinite";
   EXPECT_EQ("", refusal([](vo_motion_t* m) { m->scale_carry_std = kNan; }));
   EXPECT_EQ(carry, refusal([](vo_motion_t* m) { m->scale_carry_std = kInf; }));
   EXPECT_EQ(carry, refusal([](vo_motion_t* m) { m->scale_carry_std = -0.1; }));

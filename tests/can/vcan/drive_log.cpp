@@ -1,7 +1,9 @@
-/// drive_log LOG            writes an LCM log of GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS: a made-up drive that
-///                          visits every status, both ends of every range, a lost frame, lost halves, and lists of none
-///                          to more objects than CAN carries.
-/// drive_log LOG --trace T  reads any log with these channels and writes the CAN trace of its replay.
+/// drive_log LOG            writes an LCM log of GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS: a
+/// made-up drive that
+///                          visits every status, both ends of every range, a lost frame, lost
+///                          halves, and lists of none to more objects than CAN carries.
+/// drive_log LOG --trace T  reads any log with these channels and writes the CAN trace of its
+/// replay.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
