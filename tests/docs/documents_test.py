@@ -47,6 +47,8 @@ class Tree:
         constants = set(re.findall(r"const \w+ (\w+)", lcm))
         self.constants = constants | {re.sub(r"^(STATUS|REASON|CUE|CLASS)_", "", name) for name in constants}
         self.frames = set(re.findall(r"^BO_ \d+ (\w+):", (root / "config/plumbline.dbc").read_text(encoding="utf8"), re.M))
+        self.environment = {name for path in (root / "tests/support").glob("*.hpp")
+                            for name in re.findall(r'getenv\("(\w+)"\)', path.read_text(encoding="utf8"))}
         self.names = {path.name for folder in FOLDERS for path in (root / folder).rglob("*") if path.is_file()}
 
     @staticmethod
@@ -84,9 +86,11 @@ def check_programs(text, tree):
 def check_options(code, tree):
     for line in code:
         for command in re.split(r"\s+&\s*|\s*;\s*|\s+\|\s+", line):
-            options = set(re.findall(r"(?<!\S)(--[a-z][a-z0-9-]*)", command)) - FOREIGN
             program = re.search(r"\bplumb-[a-z0-9]+", command)
             script = re.search(r"(?<![\w/])tools/[\w/]+", command)
+            # What stands before our program's name is for another one, valgrind for example.
+            ours = command[(script or program).end():] if script or program else ""
+            options = set(re.findall(r"(?<!\S)(--[a-z][a-z0-9-]*)", ours)) - FOREIGN
             if script and (tree.root / script.group(0)).is_file():
                 known, where = tree.script_text(script.group(0)), script.group(0)
             elif program and program.group(0) in tree.programs:
@@ -107,9 +111,17 @@ def check_settings(code, tree):
                 yield f"no setting {key}"
 
 
+def prose_of(text):
+    """Everything but code, and the code spans that are a single word."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
+    text = re.sub(r"^ {4,}\S.*$", "", text, flags=re.M)
+    return re.sub(r"(?<!`)`([^`\n]+)`(?!`)", lambda span: span.group(1) if re.fullmatch(r"\w+", span.group(1)) else "", text)
+
+
 def check_messages(text, code, tree):
-    for name in sorted(set(re.findall(r"\b[A-Z]{2,}(?:_[A-Z]+)+\b", text))):
-        if name not in tree.channels | tree.constants:
+    for name in sorted(set(re.findall(r"\b[A-Z]{2,}(?:_[A-Z]+)+\b", prose_of(text)))):
+        defined_here = any(name in block for block in re.findall(r"^```[^\n]*\n(.*?)^```", text, re.S | re.M))
+        if name not in tree.channels | tree.constants | tree.environment and not defined_here:
             yield f"neither a channel nor a constant of a message: {name}"
     for name in sorted({name for item in code for name in re.findall(r"(?<![\w.:])([a-z]\w*_t)\b", item)}):
         if name not in tree.types and not re.fullmatch(r"u?int\d+_t|size_t", name):
@@ -147,6 +159,10 @@ def check_links(text, path):
 
 
 def check_text(text, path, tree):
+    # Names that a recipe makes up: <!-- example: NAME name.hpp -->
+    for names in re.findall(r"<!-- example: (.*?) -->", text):
+        for name in sorted(names.split(), key=len, reverse=True):
+            text = text.replace(name, "example")
     code = code_of(text)
     yield from check_programs(text, tree)
     yield from check_options(code, tree)
