@@ -7,15 +7,12 @@
 #include <limits>
 #include <optional>
 
+#include "platform/exit_code.hpp"
 #include "platform/nearest_word.hpp"
 #include "platform/version.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr int kExitOk = 0;
-constexpr int kExitMachine = 1;
-constexpr int kExitRefused = 2;
 
 /// The subcommand that was given, else the program itself.
 const CLI::App& innermost(const CLI::App& app) {

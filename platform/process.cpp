@@ -9,14 +9,11 @@
 
 #include "platform/clock.hpp"
 #include "platform/command_line.hpp"
+#include "platform/exit_code.hpp"
 #include "platform/log.hpp"
 
 namespace plumb {
 namespace {
-
-constexpr int kExitOk = 0;
-constexpr int kExitMachine = 1;
-constexpr int kExitRefused = 2;
 
 void check_url(const std::string& url) {
   if (url.empty()) return;
