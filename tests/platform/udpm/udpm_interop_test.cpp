@@ -112,6 +112,7 @@ TEST_F(UdpmInterop, TwoProgramsHearEachMessage) {
 std::vector<Received> read_log(const std::string& path) {
   std::vector<Received> events;
   lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "r");
+  if (log == nullptr) return events;
   while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log)) {
     const auto* bytes = static_cast<const std::uint8_t*>(event->data);
     events.push_back({event->channel, {bytes, bytes + event->datalen}});
@@ -121,38 +122,43 @@ std::vector<Received> read_log(const std::string& path) {
   return events;
 }
 
-/// Waits until the logger has joined: it then writes what we send.
-void wait_for_logger(UdpmSender* sender, const std::string& path) {
+/// Sends words to the logger until its file has `bytes`: it then has joined, or has written all.
+void wait_for_file(UdpmSender* sender, const std::string& path, std::uintmax_t bytes) {
   for (int i = 0; i < 500; ++i) {
     sender->publish("HELLO", Bytes{1});
     std::error_code error;
-    if (std::filesystem::file_size(path, error) > 0 && !error) return;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (!error && size >= bytes) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+  ADD_FAILURE() << "lcm-logger does not write";
 }
 
 TEST_F(UdpmInterop, TheStockLoggerRecordsAndTheStockPlayerPlaysUnchanged) {
   const test::TempFolder folder;
   const std::string path = (folder / "out.lcm").string();
   std::vector<Received> sent;
+  std::size_t sent_bytes = 0;
   for (std::uint32_t i = 0; i < 60; ++i) {
     if (i % 4 == 0)
       sent.push_back({kChannel, pattern(kImageBytes, i)});
     else
       sent.push_back({"VO_MOTION", pattern(100 + i, i)});
+    sent_bytes += sent.back().bytes.size();
   }
   {
-    test::ChildProcess logger({"lcm-logger", "--flush-interval=1", "-q", "-c",
-                               "HELLO|CAMERA|VO_MOTION", "-l", kTestUrl, path});
+    test::ChildProcess logger({"lcm-logger", "--flush-interval=1", "-q",
+                               "--channel=HELLO|CAMERA|VO_MOTION",
+                               std::string("--lcm-url=") + kTestUrl, path});
     UdpmSender sender(parse_udpm_url(kTestUrl));
-    wait_for_logger(&sender, path);
+    wait_for_file(&sender, path, 1);
     for (const Received& message : sent) {
       ASSERT_TRUE(sender.publish(message.channel, message.bytes));
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    wait_for_file(&sender, path, sent_bytes);
     logger.signal(SIGINT);
-    logger.wait();
+    EXPECT_EQ(0, logger.wait()) << logger.output();
   }
   std::vector<Received> logged = read_log(path);
   std::erase_if(logged, [](const Received& event) { return event.channel == "HELLO"; });
