@@ -10,21 +10,19 @@
 namespace plumb {
 namespace {
 
-void watch(int poll_fd, int fd) {
+bool watch(int poll_fd, int fd) {
   epoll_event event{};
   event.events = EPOLLIN;
-  if (::epoll_ctl(poll_fd, EPOLL_CTL_ADD, fd, &event) != 0)
-    throw std::system_error(errno, std::generic_category(), "epoll_ctl");
+  return ::epoll_ctl(poll_fd, EPOLL_CTL_ADD, fd, &event) == 0;
 }
 
 }  // namespace
 
 ReadySignal::ReadySignal(int also_fd)
     : event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), poll_(::epoll_create1(EPOLL_CLOEXEC)) {
-  if (event_.get() < 0 || poll_.get() < 0)
-    throw std::system_error(errno, std::generic_category(), "epoll and eventfd");
-  watch(poll_.get(), event_.get());
-  if (also_fd >= 0) watch(poll_.get(), also_fd);
+  const bool works = event_.get() >= 0 && poll_.get() >= 0 && watch(poll_.get(), event_.get()) &&
+                     (also_fd < 0 || watch(poll_.get(), also_fd));
+  if (!works) throw std::system_error(errno, std::generic_category(), "epoll and eventfd");
 }
 
 void ReadySignal::raise(bool raised) {

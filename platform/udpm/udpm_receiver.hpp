@@ -8,7 +8,8 @@
 /// Memory
 ///   All of it is taken in the constructor and in subscribe(). Nothing is allocated afterwards.
 /// Errors
-///   Packets that break the protocol are counted by reason. The constructor throws UdpmError.
+///   Packets that break the protocol are counted by reason. The constructor throws UdpmError, and
+///   std::system_error when the process has no descriptors left.
 #pragma once
 
 #include <sys/socket.h>
@@ -31,7 +32,7 @@ class UdpmReceiver {
   /// Packets that one take() reads at most: a flood must not keep the caller from its other work.
   static constexpr int kMaxPacketsPerTake = 512;
 
-  /// Joins. `num_in_reassembly` as UdpmInbox. Throws UdpmError.
+  /// Joins. `num_in_reassembly` as UdpmInbox.
   explicit UdpmReceiver(const UdpmUrl& url,
                         std::size_t num_in_reassembly = UdpmInbox::kDefaultReassembly);
 

@@ -2,7 +2,10 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -13,6 +16,20 @@
 #include "tests/platform/udpm/stock_lcm.hpp"
 #include "tests/support/count_malloc.hpp"
 #include "tests/support/private_network.hpp"
+
+namespace {
+int g_failing_option = -1;  // of SOL_SOCKET
+}
+
+// The library's calls come here, so that a test can make one fail.
+extern "C" int setsockopt(int fd, int level, int option, const void* value,
+                          socklen_t bytes) noexcept {
+  if (level == SOL_SOCKET && option == g_failing_option) {
+    errno = ENOPROTOOPT;
+    return -1;
+  }
+  return static_cast<int>(::syscall(SYS_setsockopt, fd, level, option, value, bytes));
+}
 
 namespace plumb {
 namespace {
@@ -177,6 +194,46 @@ TEST_F(UdpmSocket, SaysWhyItCannotJoin) {
   } catch (const UdpmError& error) {
     EXPECT_STREQ("cannot receive on UDP port 7777: Address already in use", error.what());
   }
+}
+
+TEST_F(UdpmSocket, SaysWhichOptionTheKernelRefuses) {
+  g_failing_option = SO_RXQ_OVFL;
+  try {
+    UdpmReceiver receiver(parse_udpm_url(kTestUrl));
+    FAIL() << "an option was refused";
+  } catch (const UdpmError& error) {
+    EXPECT_STREQ("cannot set SO_RXQ_OVFL: Protocol not available", error.what());
+  }
+  g_failing_option = -1;
+}
+
+TEST_F(UdpmSocket, ThrowsWhenThereAreNoDescriptorsLeft) {
+  rlimit before{};
+  ASSERT_EQ(0, ::getrlimit(RLIMIT_NOFILE, &before));
+  const int next = ::dup(0);
+  ::close(next);
+  const auto construct_with = [&](int num_free) {
+    const rlimit few{static_cast<rlim_t>(next + num_free), before.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    try {
+      const UdpmReceiver receiver(parse_udpm_url(kTestUrl));
+      return true;
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+  };
+  for (int num_free = 0; num_free < 3; ++num_free) EXPECT_FALSE(construct_with(num_free));
+  EXPECT_TRUE(construct_with(3)) << "failures leave no descriptor behind";
+  const rlimit none{static_cast<rlim_t>(next), before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &none);
+  EXPECT_THROW(UdpmSender sender(parse_udpm_url(kTestUrl)), UdpmError);
+  EXPECT_FALSE(LocalAddresses().contains(0x0A000001, 0));
+  ::setrlimit(RLIMIT_NOFILE, &before);
+}
+
+TEST_F(UdpmSocket, GetsAReceiveBufferBeyondTheLimitWhereItMay) {
+  UdpmReceiver receiver(parse_udpm_url("udpm://?recv_buf_size=67108864"));
+  EXPECT_EQ(67'108'864, receiver.receive_buffer_bytes());
 }
 
 TEST_F(UdpmSocket, RefusesToSendMoreThanFragmentsCanNumber) {
