@@ -58,9 +58,7 @@ void UdpmReceiver::join(const UdpmUrl& url) {
   ip_mreqn group{};
   group.imr_multiaddr.s_addr = htonl(url.group);
   if (::setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) != 0)
-    throw UdpmError(std::string("cannot join the LCM multicast group: ") + std::strerror(errno) +
-                    " (without a network: ip link set lo multicast on; ip route add 224.0.0.0/4 "
-                    "dev lo)");
+    throw UdpmError(std::string("cannot join the LCM multicast group: ") + std::strerror(errno));
 }
 
 void UdpmReceiver::grow_receive_buffer(int wanted_bytes) {

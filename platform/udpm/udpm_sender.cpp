@@ -1,5 +1,6 @@
 #include "platform/udpm/udpm_sender.hpp"
 
+#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
 
@@ -35,6 +36,23 @@ FileDescriptor send_socket(std::uint8_t ttl) {
   return fd;
 }
 
+/// Throws where there is no route to the group: better now than for each message.
+void check_route(const UdpmUrl& url) {
+  const FileDescriptor fd(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_addr.s_addr = htonl(url.group);
+  to.sin_port = htons(url.port);
+  if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0) return;
+  const std::string why = std::strerror(errno);
+  std::array<char, INET_ADDRSTRLEN> group{};
+  ::inet_ntop(AF_INET, &to.sin_addr, group.data(), group.size());
+  throw UdpmError("cannot use LCM network udpm://" + std::string(group.data()) + ":" +
+                  std::to_string(url.port) + ": " + why +
+                  " (on one machine: ip link set lo multicast on; ip route add 224.0.0.0/4 dev "
+                  "lo)");
+}
+
 // sendmsg() takes pointers to mutable bytes and only reads them.
 iovec part_of(const void* data, std::size_t size) { return {const_cast<void*>(data), size}; }
 
@@ -48,7 +66,9 @@ std::array<char, kUdpmMaxChannelLength + 1> terminated(std::string_view channel)
 }  // namespace
 
 UdpmSender::UdpmSender(const UdpmUrl& url)
-    : socket_(send_socket(url.ttl)), group_(url.group), port_(url.port) {}
+    : socket_(send_socket(url.ttl)), group_(url.group), port_(url.port) {
+  check_route(url);
+}
 
 bool UdpmSender::publish(std::string_view channel, Bytes payload) {
   const bool is_short = channel.size() + 1 + payload.size() <= kUdpmMaxShortBody;

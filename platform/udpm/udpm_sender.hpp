@@ -9,7 +9,7 @@
 ///   kMaxWait_ms at most in total.
 /// Errors
 ///   A message that the kernel did not take whole is counted as unsent. The constructor throws
-///   UdpmError.
+///   UdpmError, also where there is no route to the group.
 #pragma once
 
 #include <sys/socket.h>

@@ -174,10 +174,17 @@ TEST_F(UdpmSocket, AllocatesNothingAfterItsSubscriptions) {
 }
 
 TEST_F(UdpmSocket, SaysWhyItCannotJoin) {
-  ASSERT_EQ(0, std::system("ip route add unreachable 239.9.9.9/32"));
   const UdpmUrl unreachable = parse_udpm_url("udpm://239.9.9.9:7667");
-  EXPECT_THROW(UdpmReceiver receiver(unreachable), UdpmError);
   UdpmSender sender(unreachable);
+  ASSERT_EQ(0, std::system("ip route add unreachable 239.9.9.9/32"));
+  EXPECT_THROW(UdpmReceiver receiver(unreachable), UdpmError);
+  try {
+    UdpmSender later(unreachable);
+    FAIL() << "there is no route";
+  } catch (const UdpmError& error) {
+    EXPECT_EQ(0U, std::string(error.what()).find("cannot use LCM network udpm://239.9.9.9:7667: "))
+        << error.what();
+  }
   EXPECT_FALSE(sender.publish("VO_MOTION", Bytes{1}));
   EXPECT_FALSE(sender.publish("CAMERA", Bytes(kImageBytes)));
   EXPECT_EQ(2, sender.num_failed());
