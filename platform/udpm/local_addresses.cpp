@@ -27,7 +27,7 @@ void LocalAddresses::refresh(std::int64_t now_us) {
   refreshed_ = true;
   refreshed_us_ = now_us;
   num_addresses_ = 0;
-  std::array<ifreq, kMaxAddresses> interfaces;
+  std::array<ifreq, kMaxAddresses> interfaces{};
   ifconf list{};
   list.ifc_len = static_cast<int>(sizeof interfaces);
   list.ifc_req = interfaces.data();

@@ -5,7 +5,8 @@
 /// Delivery
 ///   kEvery gives every message. When the slots of such a channel are taken, is_full() asks the
 ///   caller to stop reading, so that further messages wait in the kernel.
-///   kLatest gives the newest message. It replaces an older one that waits, which counts as skipped.
+///   kLatest gives the newest message. It replaces an older one that waits, which then counts as
+///   skipped.
 /// Memory
 ///   subscribe() takes the slots and writes to them. Nothing is allocated afterwards.
 #pragma once

@@ -93,7 +93,7 @@ void UdpmReceiver::drain() {
 bool UdpmReceiver::receive_one() {
   sockaddr_in from{};
   iovec part{packet_.data(), packet_.size()};
-  alignas(cmsghdr) std::array<char, 256> control;
+  alignas(cmsghdr) std::array<char, 128> control{};
   msghdr message{};
   message.msg_name = &from;
   message.msg_namelen = sizeof from;

@@ -1,9 +1,10 @@
 /// The LCM URL of a UDP multicast network: udpm://ADDRESS:PORT?ttl=N&recv_buf_size=N&source=ADDRESS
 ///
 /// Address and port default to 239.255.76.67:7667. `ttl` says how far messages that are sent go: 0
-/// (the default) keeps them on this machine, 1 on the local network. `recv_buf_size` is the kernel's
-/// receive buffer in bytes. These are as in liblcm. `source`, which is ours and may be repeated,
-/// names another machine whose messages are received.
+/// (the default) keeps them on this machine, 1 on the local network. `recv_buf_size` is the size of
+/// the kernel's receive buffer in bytes. These are as in liblcm. `source`, which liblcm does not
+/// know and which may be repeated, names another machine whose messages are received, whatever the
+/// ttl.
 #pragma once
 
 #include <cstdint>
