@@ -9,6 +9,7 @@
 
 #include "platform/clock.hpp"
 #include "platform/log.hpp"
+#include "platform/udpm/udpm_url.hpp"
 #include "platform/version.hpp"
 
 namespace plumb {
@@ -19,10 +20,14 @@ constexpr int kExitMachine = 1;
 constexpr int kExitRefused = 2;
 
 void check_url(const std::string& url) {
-  if (url.empty()) return;
-  for (const char* provider : {"udpm://", "memq://", "tcpq://"})
-    if (url.rfind(provider, 0) == 0) return;
-  throw UsageError("--lcm-url " + url + " begins with none of udpm://, memq://, tcpq://");
+  if (url.empty() || url.rfind("memq://", 0) == 0) return;
+  if (url.rfind("udpm://", 0) != 0)
+    throw UsageError("--lcm-url " + url + " begins with neither udpm:// nor memq://");
+  try {
+    (void)parse_udpm_url(url);
+  } catch (const UdpmError& error) {
+    throw UsageError(error.what());
+  }
 }
 
 }  // namespace
