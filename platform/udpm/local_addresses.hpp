@@ -4,7 +4,7 @@
 /// loopback address or 0.0.0.0 as their source, so a packet with such a source was sent here.
 /// Multicast that is routed to the loopback interface has the source 0.0.0.0.
 ///
-/// Memory
+/// Memory:
 ///   Fixed. The look-up is one ioctl into an array and does not allocate.
 #pragma once
 

@@ -1,13 +1,13 @@
 /// Received messages that wait for their readers, in memory that is fixed.
 ///
-/// Order
+/// Order:
 ///   pop() gives the messages of all channels in the order of their arrival.
-/// Delivery
+/// Delivery:
 ///   kEvery gives every message. When the slots of such a channel are taken, is_full() asks the
 ///   caller to stop reading, so that further messages wait in the kernel.
 ///   kLatest gives the newest message. It replaces an older one that waits, which then counts as
 ///   skipped.
-/// Memory
+/// Memory:
 ///   subscribe() takes the slots and writes to them. Nothing is allocated afterwards.
 #pragma once
 

@@ -1,15 +1,15 @@
 /// Puts messages together from their fragments, in memory that is fixed.
 ///
-/// Rules
+/// Rules:
 ///   A message belongs to a sender (address and port) and a sequence number. Its fragments may come
 ///   in any order. They have to agree on the message's size and number of fragments, and to tile
 ///   the message: fragment k + 1 begins where fragment k ends, the first begins at 0 and the last
 ///   ends with the message. So a complete message has no byte that was not received.
-/// Limits
+/// Limits:
 ///   A fixed number of messages is open at a time. When another one begins, the oldest is given up.
 ///   A message whose first fragment, which names the channel, has not come yet is given up before
 ///   all others and never displaces a message with a channel.
-/// Memory
+/// Memory:
 ///   All buffers are taken and written to in reserve(). Nothing is allocated afterwards.
 #pragma once
 

@@ -1,8 +1,8 @@
 /// Turns datagrams into messages for their readers. It is pure: it knows no socket and no clock.
 ///
-/// Memory
+/// Memory:
 ///   subscribe() takes all of it. take_packet() and pop() do not allocate.
-/// Errors
+/// Errors:
 ///   Packets may hold any bytes. What is wrong with one is its outcome, and outcomes are counted.
 #pragma once
 

@@ -1,12 +1,12 @@
 /// The wire format of LCM's UDP multicast provider (UDPM): parsing and writing of packet headers.
 ///
-/// Format (numbers are big-endian)
+/// Format (numbers are big-endian):
 ///   short     "LC02" | u32 sequence | channel NUL | payload
 ///   fragment  "LC03" | u32 sequence | u32 message size | u32 offset | u16 number | u16 count
 ///             | channel NUL (only in fragment 0) | payload
-/// Memory
+/// Memory:
 ///   A parsed packet refers to the bytes that it was parsed from. Nothing is allocated.
-/// Errors
+/// Errors:
 ///   Each length is checked before it is used. A packet that fails a check has a fault and nothing
 ///   else in it may be used.
 #pragma once

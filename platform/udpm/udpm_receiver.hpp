@@ -1,13 +1,13 @@
 /// Receives LCM messages from a UDP multicast network, in the thread that calls it.
 ///
-/// Network
+/// Network:
 ///   The socket joins the group as liblcm does and shares its port, so that it hears the stock
 ///   tools. It is bound to the group's address instead of to all addresses: the kernel then keeps
 ///   unicast packets and those of other groups away from it. Packets are taken from senders on this
 ///   machine and from those that the URL names; liblcm takes them from everybody, whatever its ttl.
-/// Memory
+/// Memory:
 ///   All of it is taken in the constructor and in subscribe(). Nothing is allocated afterwards.
-/// Errors
+/// Errors:
 ///   Packets that break the protocol are counted by reason. The constructor throws UdpmError, and
 ///   std::system_error when the process has no descriptors left.
 #pragma once

@@ -2,12 +2,12 @@
 ///
 /// Packets are cut as liblcm cuts them. The payload is handed to the kernel where it lies.
 ///
-/// Memory
+/// Memory:
 ///   Nothing is allocated after construction.
-/// Waiting
+/// Waiting:
 ///   A short message never waits. A fragmented one waits until the network has taken its fragments,
 ///   kMaxWait_ms at most in total.
-/// Errors
+/// Errors:
 ///   A message that the kernel did not take whole is counted as unsent. The constructor throws
 ///   UdpmError, also where there is no route to the group.
 #pragma once
