@@ -1,7 +1,6 @@
 #include "platform/bus.hpp"
 
-#include <netinet/in.h>
-#include <sys/socket.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,134 +9,159 @@
 
 #include "platform/clock.hpp"
 #include "platform/log.hpp"
+#include "platform/udpm/memory_transport.hpp"
+#include "platform/udpm/udpm_endpoint.hpp"
 
 namespace plumb {
 namespace {
 
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
-constexpr int kMaxDescriptors = 1024;  // liblcm uses select(), which takes no higher ones
 
 std::string resolve_url(const std::string& asked) {
   const char* preset = std::getenv("LCM_DEFAULT_URL");
-  std::string url = asked;
-  if (url.empty()) url = preset != nullptr && *preset != '\0' ? preset : kDefaultUrl;
-  if (url.rfind("udpm://", 0) == 0 && url.find("recv_buf_size=") == std::string::npos) {
-    url += url.find('?') == std::string::npos ? "?" : "&";
-    url += "recv_buf_size=" + std::to_string(Bus::kReceiveBufferBytes);
-  }
-  return url;
+  if (!asked.empty()) return asked;
+  return preset != nullptr && *preset != '\0' ? preset : kDefaultUrl;
 }
 
-int port_of(const std::string& url) {
-  const std::size_t host = url.find("://");
-  const std::size_t colon = host == std::string::npos ? host : url.find(':', host + 3);
-  return colon == std::string::npos ? 7667 : std::atoi(url.c_str() + colon + 1);
-}
-
-// liblcm does not expose its receiving socket (lcm_get_fileno returns a pipe), so the socket is
-// found by its port.
-std::vector<int> sockets_bound_to(int port) {
-  std::vector<int> found;
-  for (int fd = 0; fd < kMaxDescriptors; ++fd) {
-    sockaddr_in address{};
-    socklen_t bytes = sizeof address;
-    if (::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &bytes) != 0) continue;
-    if (address.sin_family == AF_INET && ntohs(address.sin_port) == port) found.push_back(fd);
-  }
-  return found;
+std::unique_ptr<MessageTransport> make_transport(const std::string& url) {
+  if (url.rfind("memq://", 0) == 0) return std::make_unique<MemoryTransport>();
+  UdpmUrl parsed = parse_udpm_url(url);
+  if (parsed.receive_buffer_bytes == 0) parsed.receive_buffer_bytes = Bus::kReceiveBufferBytes;
+  return std::make_unique<UdpmEndpoint>(std::move(parsed));
 }
 
 }  // namespace
 
 Bus::Bus(const std::string& url, Counters* counters) : url_(resolve_url(url)), counters_(counters) {
-  lcm_ = lcm_create(url_.c_str());
-  if (lcm_ == nullptr) throw BusError("cannot use LCM network " + url_);
+  try {
+    transport_ = make_transport(url_);
+  } catch (const std::exception& error) {
+    throw BusError(error.what());
+  }
 }
 
-Bus::~Bus() { lcm_destroy(lcm_); }
+Bus::~Bus() = default;
 
 int Bus::fileno() {
-  const int fd = lcm_get_fileno(lcm_);
-  if (fd < 0) throw BusError("cannot receive on LCM network " + url_);
-  return fd;
+  try {
+    return transport_->fileno();
+  } catch (const std::exception& error) {
+    throw BusError("cannot receive on LCM network " + url_ + ": " + error.what());
+  }
 }
 
 bool Bus::handle(int timeout_ms, std::int64_t busy_since_us) {
   busy_since_us_ = busy_since_us;
-  const int result = lcm_handle_timeout(lcm_, timeout_ms);
-  if (result < 0) log_limited("receiving from LCM failed");
-  return result > 0;
+  const MessageQueues::View message = wait_for_message(timeout_ms);
+  tell_refusals();
+  if (message.subscription == MessageQueues::kNone) return false;
+  for (RawSubscriber* subscriber : subscribers_) {
+    if (subscriber->subscription_ != message.subscription) continue;
+    subscriber->dispatch(message);
+    return true;
+  }
+  return false;
 }
 
-void Bus::grow_receive_buffer() {
-  if (receive_buffer_bytes_ > 0 || url_.rfind("udpm://", 0) != 0) return;
-  for (const int fd : sockets_bound_to(port_of(url_))) {
-    int booked = 0;
-    socklen_t bytes = sizeof booked;
-    if (::getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &booked, &bytes) != 0) continue;
-    if (booked / 2 < kReceiveBufferBytes) {
-      // This exceeds net.core.rmem_max, which only an administrator may do. A failed attempt
-      // changes nothing.
-      const int wanted = kReceiveBufferBytes;
-      (void)::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted);
-      bytes = sizeof booked;
-      if (::getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &booked, &bytes) != 0) continue;
-    }
-    receive_buffer_bytes_ = booked / 2;
+/// The descriptor may be readable for packets that are no message of ours, so look again until the
+/// time has passed.
+MessageQueues::View Bus::wait_for_message(int timeout_ms) {
+  const std::int64_t end_us = monotonic_us() + std::int64_t{timeout_ms} * 1'000;
+  MessageQueues::View message = transport_->take();
+  while (message.subscription == MessageQueues::kNone) {
+    const std::int64_t left_us = end_us - monotonic_us();
+    if (left_us <= 0) break;
+    pollfd watched{fileno(), POLLIN, 0};
+    (void)::poll(&watched, 1, static_cast<int>((left_us + 999) / 1'000));
+    message = transport_->take();
   }
-  if (receive_buffer_bytes_ > 0 && receive_buffer_bytes_ < kReceiveBufferBytes) {
+  return message;
+}
+
+bool Bus::publish(const Channel& channel, std::span<const std::uint8_t> bytes) {
+  return transport_->publish(channel.name, bytes);
+}
+
+int Bus::subscribe(const Subscription& wanted) {
+  const bool is_first = transport_->receive_buffer_bytes() == 0;
+  int subscription = MessageQueues::kNone;
+  try {
+    subscription = transport_->subscribe(wanted);
+  } catch (const std::exception& error) {
+    throw BusError("cannot receive " + wanted.channel + " on LCM network " + url_ + ": " +
+                   error.what());
+  }
+  const int granted = transport_->receive_buffer_bytes();
+  if (is_first && granted > 0 && granted < kReceiveBufferBytes) {
     log_line(
         "the kernel granted a receive buffer of %d bytes instead of %d; images may be lost; "
         "to grant it run: sysctl -w net.core.rmem_max=%d",
-        receive_buffer_bytes_, kReceiveBufferBytes, kReceiveBufferBytes);
+        granted, kReceiveBufferBytes, kReceiveBufferBytes);
   }
+  return subscription;
 }
 
-RawSubscriber::RawSubscriber(Bus& bus, const Channel& channel, Input input, Handler handler)
+/// Says which packets were refused since the last call. Only messages that are too large count as
+/// rejected: anything else may come from anybody and says nothing about our neighbours.
+void Bus::tell_refusals() {
+  const std::int64_t num_overflowed = transport_->num_overflowed();
+  if (num_overflowed != num_overflowed_)
+    log_limited("the receive buffer was full, packets were lost: %lld so far",
+                static_cast<long long>(num_overflowed));
+  num_overflowed_ = num_overflowed;
+  const UdpmOutcomeCounts now = transport_->outcomes();
+  if (now.num_refused() == num_refused_) return;
+  num_refused_ = now.num_refused();
+  for (std::size_t i = 0; i < kNumUdpmOutcomes; ++i) {
+    const auto outcome = static_cast<UdpmOutcome>(i);
+    if (!is_refusal(outcome) || now[outcome] == outcomes_[outcome]) continue;
+    if (outcome == UdpmOutcome::kTooLarge) counters_->reject(describe(outcome));
+    log_limited("packets were refused: %s, %lld so far", describe(outcome),
+                static_cast<long long>(now[outcome]));
+  }
+  outcomes_ = now;
+}
+
+RawSubscriber::RawSubscriber(Bus& bus, const Channel& channel, Input input, Handler handler,
+                             const MessageMemory& memory)
     : bus_(bus), channel_(channel), input_(input), handler_(std::move(handler)) {
-  subscription_ = lcm_subscribe(bus.lcm(), channel.name, &RawSubscriber::on_message, this);
-  if (subscription_ == nullptr)
-    throw BusError("cannot receive " + std::string(channel.name) + " on LCM network " + bus.url());
-  lcm_subscription_set_queue_capacity(subscription_, kQueueMessages);
+  subscription_ =
+      bus.subscribe({channel.name, memory.max_bytes, memory.num_slots, memory.delivery});
   bus.subscribers_.push_back(this);
-  bus.grow_receive_buffer();
 }
 
 RawSubscriber::~RawSubscriber() {
-  lcm_unsubscribe(bus_.lcm(), subscription_);
+  bus_.transport_->unsubscribe(subscription_);
   auto& list = bus_.subscribers_;
   list.erase(std::find(list.begin(), list.end(), this));
 }
 
-// liblcm calls this from C, so no exception may leave it.
-void RawSubscriber::on_message(const lcm_recv_buf_t* raw, const char* /*channel*/, void* self) {
-  auto& subscriber = *static_cast<RawSubscriber*>(self);
+std::int64_t RawSubscriber::num_skipped() const {
+  return bus_.transport_->num_skipped(subscription_);
+}
+
+void RawSubscriber::dispatch(const MessageQueues::View& message) {
   try {
-    subscriber.dispatch(*raw);
+    take(message);
   } catch (const std::exception& error) {
-    subscriber.bus_.counters().reject("its handler threw an exception");
-    log_limited("%s: %s", subscriber.channel_.name, error.what());
+    bus_.counters().reject("its handler threw an exception");
+    log_limited("%s: %s", channel_.name, error.what());
   }
 }
 
-void RawSubscriber::dispatch(const lcm_recv_buf_t& raw) {
+void RawSubscriber::take(const MessageQueues::View& message) {
   last_us_ = monotonic_us();
+  arrival_us_ = message.arrival_us;
   Counters& counters = bus_.counters();
   ++counters.num_received;
-  const char* refused = handler_({static_cast<const std::uint8_t*>(raw.data), raw.data_size});
-  if (refused != nullptr) {
+  if (const char* refused = handler_(message.bytes)) {
     counters.reject(refused);
     log_limited("a message on %s was refused: %s", channel_.name, refused);
   }
-  if (channel_.stale_us > 0 && waited_us(raw) > channel_.stale_us) ++counters.num_late;
-}
-
-// Time between the arrival at the socket and now. liblcm stamps the arrival with the calendar
-// clock, which may step, and does not renew the stamp of a buffer that it reuses. The stamp is
-// therefore trusted only as far back as this thread has been busy.
-std::int64_t RawSubscriber::waited_us(const lcm_recv_buf_t& raw) const {
-  return std::clamp<std::int64_t>(realtime_us() - raw.recv_utime, 0,
-                                  monotonic_us() - bus_.busy_since_us_);
+  const std::int64_t done_us = monotonic_us();
+  const std::int64_t waited_us =
+      std::min(done_us - message.arrival_us, done_us - bus_.busy_since_us_);
+  if (channel_.stale_us > 0 && waited_us > channel_.stale_us) ++counters.num_late;
 }
 
 }  // namespace plumb

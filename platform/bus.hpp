@@ -1,22 +1,17 @@
-/// An LCM connection and typed endpoints that own their buffers.
+/// A connection to an LCM network and typed endpoints, in memory that is fixed.
 ///
 /// Threads:
-///   All classes belong to the thread that calls Bus::handle(); handlers run in it. liblcm receives
-///   in a thread of its own.
+///   All classes belong to the thread that calls Bus::handle(); handlers run in it.
 /// Memory:
-///   A Subscriber decodes into a member, and a Publisher encodes into storage that it allocated at
-///   construction. liblcm's receive thread does allocate: two blocks for every message above 65,499
-///   bytes (each camera image), which it frees after dispatch. Our promise of no allocation covers
-///   our libraries and our loop, not liblcm.
+///   A Subscriber takes slots for its messages and a decoded message at construction. A Publisher
+///   encodes into storage that it took at construction. Nothing is allocated afterwards.
 /// Order:
-///   Messages are handled in the order of their arrival.
-///   A queue that overflows shows as a gap in seq.
+///   Messages are handled in the order of their arrival. A message for which the kernel had no room
+///   shows as a gap in seq. A reader that wants only the newest message skips older ones.
 /// Errors:
 ///   Constructors throw BusError when the network cannot be joined. Later failures are counted in
 ///   Counters, and an exception that a handler throws is logged and counted as a rejection.
 #pragma once
-
-#include <lcm/lcm.h>
 
 #include <cstdint>
 #include <functional>
@@ -29,6 +24,8 @@
 #include "core/channels.hpp"
 #include "core/counters.hpp"
 #include "platform/bounded_decode.hpp"
+#include "platform/max_encoded_bytes.hpp"
+#include "platform/udpm/message_transport.hpp"
 
 namespace plumb {
 
@@ -47,8 +44,10 @@ class Bus {
   /// is a third of a second at five times real time.
   static constexpr int kReceiveBufferBytes = 8 << 20;
 
-  /// Joins the network `url`. An empty `url` means $LCM_DEFAULT_URL or, when that is not set,
-  /// multicast that stays on this machine. `counters` outlives the bus. Throws BusError.
+  /// Uses the network `url`, which the first subscription joins: udpm://... (udpm_url.hpp), or
+  /// memq:// for messages within this object. An empty `url` means $LCM_DEFAULT_URL or, when that
+  /// is not set, multicast that stays on this machine. `counters` outlives the bus. Throws
+  /// BusError.
   Bus(const std::string& url, Counters* counters);
   ~Bus();
   Bus(const Bus&) = delete;
@@ -59,45 +58,63 @@ class Bus {
   [[nodiscard]] int fileno();
   /// Dispatches at most one message and waits up to `timeout_ms` for it. Returns true when there
   /// was one. `busy_since_us` (EventLoop::busy_since_us) is the earliest time at which the message
-  /// can have arrived; it bounds the arrival time that liblcm reports.
+  /// can have arrived; it bounds the arrival time, which a step of the calendar clock may spoil.
   bool handle(int timeout_ms = 0, std::int64_t busy_since_us = 0);
+  /// Publishes bytes. Returns false when the transport does not take them.
+  bool publish(const Channel& channel, std::span<const std::uint8_t> bytes);
 
   /// [bytes] Receive buffer that the kernel granted: half of SO_RCVBUF, because the kernel accounts
   /// its own overhead in the other half. It is 0 before the first
   /// subscription and without a socket.
-  [[nodiscard]] int receive_buffer_bytes() const { return receive_buffer_bytes_; }
+  [[nodiscard]] int receive_buffer_bytes() const { return transport_->receive_buffer_bytes(); }
   [[nodiscard]] const std::string& url() const { return url_; }
   [[nodiscard]] Counters& counters() { return *counters_; }
-  [[nodiscard]] lcm_t* lcm() { return lcm_; }
-  [[nodiscard]] const std::vector<const RawSubscriber*>& subscribers() const {
-    return subscribers_;
-  }
+  [[nodiscard]] const MessageTransport& transport() const { return *transport_; }
+  [[nodiscard]] const std::vector<RawSubscriber*>& subscribers() const { return subscribers_; }
 
  private:
   friend class RawSubscriber;
-  void grow_receive_buffer();
+  int subscribe(const Subscription& wanted);
+  [[nodiscard]] MessageQueues::View wait_for_message(int timeout_ms);
+  void tell_refusals();
 
   std::string url_;
   Counters* counters_;
-  lcm_t* lcm_ = nullptr;
-  int receive_buffer_bytes_ = 0;
+  std::unique_ptr<MessageTransport> transport_;
   std::int64_t busy_since_us_ = 0;
-  std::vector<const RawSubscriber*> subscribers_;
+  std::int64_t num_refused_ = 0;
+  UdpmOutcomeCounts outcomes_;
+  std::int64_t num_overflowed_ = 0;
+  std::vector<RawSubscriber*> subscribers_;
 };
 
 /// Whether the health message reports a channel on which nothing arrives (kPeriodic) or not.
 enum class Input : std::uint8_t { kPeriodic, kOccasional };
 
-/// Passes the bytes of every message of one channel to a handler.
+/// The memory that a reader has for its messages.
+struct MessageMemory {
+  std::size_t max_bytes = 0;  ///< [bytes] of the largest message; larger ones are refused
+  std::size_t num_slots = 0;  ///< messages held, the one being handled included
+  Delivery delivery = Delivery::kEvery;
+};
+
+/// [bytes] The size of a grey image of 1920 x 1200 pixels as image_t. A reader of bytes that states
+/// no size has room for messages of this size.
+inline constexpr std::size_t kMaxImageBytes = 1920 * 1200 + 128;
+
+/// Passes the bytes of the messages of one channel to a handler.
 class RawSubscriber {
  public:
   using Bytes = std::span<const std::uint8_t>;
   /// Returns null when it accepts the message, and else the reason as a string literal.
   using Handler = std::function<const char*(Bytes)>;
-  static constexpr int kQueueMessages = 64;
+  static constexpr int kQueueMessages = 16;  ///< slots of a reader of decoded messages
+  static constexpr int kQueueImages = 3;     ///< slots of other readers; the kernel holds the rest
 
-  /// Subscribes to `channel`. `bus` and `channel` outlive the subscriber. Throws BusError.
-  RawSubscriber(Bus& bus, const Channel& channel, Input input, Handler handler);
+  /// Subscribes to `channel`, which has one reader per bus. `bus` and `channel` outlive the
+  /// subscriber. Throws BusError.
+  RawSubscriber(Bus& bus, const Channel& channel, Input input, Handler handler,
+                const MessageMemory& memory = {kMaxImageBytes, kQueueImages});
   ~RawSubscriber();
   RawSubscriber(const RawSubscriber&) = delete;
   RawSubscriber& operator=(const RawSubscriber&) = delete;
@@ -106,18 +123,23 @@ class RawSubscriber {
   [[nodiscard]] Input input() const { return input_; }
   /// [us] Monotonic time of the newest message; 0 before the first.
   [[nodiscard]] std::int64_t last_us() const { return last_us_; }
+  /// [us] Monotonic time at which the newest message reached this machine's socket.
+  [[nodiscard]] std::int64_t arrival_us() const { return arrival_us_; }
+  /// Messages that a newer one replaced before they were handled (Delivery::kLatest).
+  [[nodiscard]] std::int64_t num_skipped() const;
 
  private:
-  static void on_message(const lcm_recv_buf_t* raw, const char* channel, void* self);
-  void dispatch(const lcm_recv_buf_t& raw);
-  [[nodiscard]] std::int64_t waited_us(const lcm_recv_buf_t& raw) const;
+  friend class Bus;
+  void dispatch(const MessageQueues::View& message);
+  void take(const MessageQueues::View& message);
 
   Bus& bus_;
   const Channel& channel_;
   Input input_;
   Handler handler_;
-  lcm_subscription_t* subscription_ = nullptr;
+  int subscription_ = MessageQueues::kNone;
   std::int64_t last_us_ = 0;
+  std::int64_t arrival_us_ = 0;
 };
 
 /// Decodes every message of one channel into a member and passes it to a handler. A message that
@@ -129,10 +151,12 @@ class Subscriber {
 
   Subscriber(Bus& bus, const Channel& channel, Input input, Handler handler)
       : handler_(std::move(handler)),
-        raw_(bus, channel, input, [this](RawSubscriber::Bytes bytes) -> const char* {
-          if (!decode_bounded(bytes, &message_)) return "does not decode";
-          return handler_(message_);
-        }) {}
+        raw_(bus, channel, input,
+             [this](RawSubscriber::Bytes bytes) -> const char* {
+               if (!decode_bounded(bytes, &message_)) return "does not decode";
+               return handler_(message_);
+             },
+             {max_encoded_bytes(&message_), RawSubscriber::kQueueMessages}) {}
   [[nodiscard]] std::int64_t last_us() const { return raw_.last_us(); }
 
  private:
@@ -162,8 +186,7 @@ class Publisher {
   /// Publishes the message. Returns false when it does not fit or the socket refuses it.
   bool publish(const Message& message) {
     const auto bytes = encode(message);
-    const bool sent = !bytes.empty() && lcm_publish(bus_.lcm(), channel_.name, bytes.data(),
-                                                    static_cast<unsigned>(bytes.size())) == 0;
+    const bool sent = !bytes.empty() && bus_.publish(channel_, bytes);
     ++(sent ? counters_->num_published : counters_->num_unsent);
     return sent;
   }

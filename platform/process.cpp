@@ -11,15 +11,20 @@
 #include "platform/command_line.hpp"
 #include "platform/exit_code.hpp"
 #include "platform/log.hpp"
+#include "platform/udpm/udpm_url.hpp"
 
 namespace plumb {
 namespace {
 
 void check_url(const std::string& url) {
-  if (url.empty()) return;
-  for (const char* provider : {"udpm://", "memq://", "tcpq://"})
-    if (url.rfind(provider, 0) == 0) return;
-  throw UsageError("--lcm-url " + url + " begins with none of udpm://, memq://, tcpq://");
+  if (url.empty() || url.rfind("memq://", 0) == 0) return;
+  if (url.rfind("udpm://", 0) != 0)
+    throw UsageError("--lcm-url " + url + " begins with neither udpm:// nor memq://");
+  try {
+    (void)parse_udpm_url(url);
+  } catch (const UdpmError& error) {
+    throw UsageError(error.what());
+  }
 }
 
 }  // namespace

@@ -106,8 +106,8 @@ TEST_F(CanProgramLive, SendsWhatItHearsThenNotAvailableAndStopsCleanly) {
     sleep_s(0.02);
   }
   // What does not decode, and what decodes but breaks its contract.
-  const char rubbish[] = "rubbish";
-  lcm_publish(bus_->lcm(), kEgoMotion.name, rubbish, sizeof rubbish);
+  const std::vector<std::uint8_t> rubbish{1, 2, 3};
+  bus_->publish(kEgoMotion, rubbish);
   publish(20, std::nan(""));
   sleep_s(1.0);
   can.signal(SIGTERM);

@@ -7,6 +7,7 @@
 #include "platform/clock.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/vo_motion_t.hpp"
+#include "tests/support/private_network.hpp"
 
 namespace plumb {
 namespace {
@@ -173,8 +174,8 @@ TEST_F(BusTest, CountsWhatDoesNotDecodeAndWhatItsHandlerRefuses) {
     return "not today";
   });
   const Bytes good = encoded(ground_plane_t{});
-  lcm_publish(bus_.lcm(), kGroundPlane.name, good.data(), 20);
-  lcm_publish(bus_.lcm(), kGroundPlane.name, good.data(), static_cast<unsigned>(good.size()));
+  bus_.publish(kGroundPlane, std::span(good).first(20));
+  bus_.publish(kGroundPlane, good);
   while (bus_.handle(0)) {
   }
   EXPECT_EQ(1, handled);
@@ -186,7 +187,7 @@ TEST_F(BusTest, CountsWhatDoesNotDecodeAndWhatItsHandlerRefuses) {
 TEST_F(BusTest, SurvivesAHandlerThatThrows) {
   RawSubscriber in(bus_, kCamera, Input::kPeriodic,
                    [](RawSubscriber::Bytes) -> const char* { throw std::runtime_error("boom"); });
-  lcm_publish(bus_.lcm(), kCamera.name, "x", 1);
+  bus_.publish(kCamera, Bytes{1});
   EXPECT_TRUE(bus_.handle(1000));
   EXPECT_EQ(1, counters_.num_rejected);
 }
@@ -202,23 +203,104 @@ TEST_F(BusTest, CountsAMessageThatWaitedTooLongAsLate) {
   static constexpr Channel kImpatient{"IMPATIENT", "test", 10.0, 20'000};
   RawSubscriber in(bus_, kImpatient, Input::kPeriodic,
                    [](RawSubscriber::Bytes) { return nullptr; });
-  lcm_publish(bus_.lcm(), kImpatient.name, "x", 1);
+  bus_.publish(kImpatient, Bytes{1});
   bus_.handle(0);
   EXPECT_EQ(0, counters_.num_late);
-  lcm_publish(bus_.lcm(), kImpatient.name, "x", 1);
+  bus_.publish(kImpatient, Bytes{1});
   usleep(60'000);
   bus_.handle(0);
   EXPECT_EQ(1, counters_.num_late);
-  lcm_publish(bus_.lcm(), kImpatient.name, "x", 1);
+  EXPECT_GE(in.last_us() - in.arrival_us(), 60'000);
+  bus_.publish(kImpatient, Bytes{1});
   usleep(60'000);
   bus_.handle(0, monotonic_us() - 1'000);
   EXPECT_EQ(1, counters_.num_late)
       << "this thread was idle a moment ago, so the time stamp of the arrival is wrong";
 }
 
-TEST(Bus, RefusesANetworkThatDoesNotExist) {
+TEST_F(BusTest, GivesTheNewestMessageAloneWhereItsReaderAsksForIt) {
+  std::vector<std::uint8_t> seen;
+  RawSubscriber in(bus_, kCamera, Input::kPeriodic,
+                   [&](RawSubscriber::Bytes bytes) {
+                     seen.push_back(bytes[0]);
+                     return nullptr;
+                   },
+                   {10, 2, Delivery::kLatest});
+  for (std::uint8_t i = 1; i <= 5; ++i) EXPECT_TRUE(bus_.publish(kCamera, Bytes{i}));
+  while (bus_.handle(0)) {
+  }
+  EXPECT_EQ(Bytes{5}, seen);
+  EXPECT_EQ(4, in.num_skipped());
+  EXPECT_EQ(1, counters_.num_received);
+}
+
+TEST_F(BusTest, HandsOnAMessageWithoutBytes) {
+  std::size_t size = 99;
+  RawSubscriber in(bus_, kCamera, Input::kPeriodic, [&](RawSubscriber::Bytes bytes) {
+    size = bytes.size();
+    return nullptr;
+  });
+  EXPECT_TRUE(bus_.publish(kCamera, {}));
+  EXPECT_TRUE(bus_.handle(0));
+  EXPECT_EQ(0U, size);
+}
+
+TEST_F(BusTest, DoesNotTakeWhatItsReaderHasNoRoomFor) {
+  RawSubscriber in(bus_, kCamera, Input::kPeriodic, [](RawSubscriber::Bytes) { return nullptr; },
+                   {10, 2});
+  EXPECT_FALSE(bus_.publish(kCamera, Bytes(11)));
+  EXPECT_TRUE(bus_.publish(kCamera, Bytes(10)));
+  EXPECT_TRUE(bus_.publish(kCamera, Bytes(10)));
+  EXPECT_FALSE(bus_.publish(kCamera, Bytes(10)));
+  EXPECT_TRUE(bus_.publish(kVoMotion, Bytes(10))) << "nobody reads it";
+}
+
+TEST_F(BusTest, AChannelHasOneReader) {
+  const auto take = [](RawSubscriber::Bytes) { return nullptr; };
+  {
+    RawSubscriber first(bus_, kCamera, Input::kPeriodic, take);
+    EXPECT_THROW(RawSubscriber(bus_, kCamera, Input::kPeriodic, take), BusError);
+  }
+  EXPECT_NO_THROW(RawSubscriber(bus_, kCamera, Input::kPeriodic, take));
+}
+
+TEST(Bus, RefusesWhatIsNoNetworkItCanUse) {
   Counters counters;
-  EXPECT_THROW(Bus("nosuch://", &counters), BusError);
+  for (const char* url : {"nosuch://", "tcpq://10.0.0.1", "file://log", "udpm://10.0.0.1"})
+    EXPECT_THROW(Bus(url, &counters), BusError) << url;
+}
+
+class BusOnNetwork : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { is_private_ = test::enter_private_network(); }
+  void SetUp() override {
+    if (!is_private_) GTEST_SKIP() << test::kNoPrivateNetwork;
+  }
+  static inline bool is_private_ = false;
+};
+
+TEST_F(BusOnNetwork, CarriesMessagesBetweenTwoProgramsAndRefusesWhatIsTooLarge) {
+  Counters sent;
+  Counters received;
+  Bus sender("udpm://239.255.76.67:7667?ttl=0", &sent);
+  Bus receiver("udpm://239.255.76.67:7667?ttl=0", &received);
+  EXPECT_EQ(0, sender.receive_buffer_bytes()) << "it has not joined";
+  std::size_t size = 0;
+  RawSubscriber in(receiver, kCamera, Input::kPeriodic,
+                   [&](RawSubscriber::Bytes bytes) {
+                     size = bytes.size();
+                     return nullptr;
+                   },
+                   {200'000, 2});
+  EXPECT_GT(receiver.receive_buffer_bytes(), 0);
+  EXPECT_TRUE(sender.publish(kCamera, Bytes(200'000)));
+  EXPECT_TRUE(receiver.handle(1'000));
+  EXPECT_EQ(200'000U, size);
+  EXPECT_TRUE(sender.publish(kCamera, Bytes(200'001)));
+  EXPECT_TRUE(sender.publish(kVoMotion, Bytes(10)));
+  EXPECT_FALSE(receiver.handle(100));
+  EXPECT_EQ(1, received.num_rejected);
+  EXPECT_STREQ("the message is larger than its channel allows", received.last_rejection);
 }
 
 TEST(LossCounter, CountsGapsAndTellsThemFromRepeatsAndRestarts) {

@@ -30,7 +30,7 @@ TEST_F(HealthTest, WaitsUntilAPeriodicInputArrivesAndAgainWhenItFallsSilent) {
   RawSubscriber in(bus_, kInput, Input::kPeriodic, [](RawSubscriber::Bytes) { return nullptr; });
   EXPECT_EQ(HealthState::kWaiting, state_at(monotonic_us()));
   EXPECT_EQ("no INPUT yet", reason_);
-  lcm_publish(bus_.lcm(), kInput.name, "x", 1);
+  bus_.publish(kInput, std::vector<std::uint8_t>{1});
   bus_.handle(100);
   EXPECT_EQ(HealthState::kRunning, state_at(in.last_us() + 99'000));
   EXPECT_EQ("", reason_);

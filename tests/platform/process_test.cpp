@@ -37,7 +37,8 @@ TEST_P(ProcessTest, RefusesWhatItDoesNotKnowWithOneSentenceAndCode2) {
   expect_refused({program, "--config"}, "--config wants a value");
   expect_refused({program, "--config", "/nowhere.toml"},
                  "cannot read /nowhere.toml: No such file or directory\n");
-  expect_refused({program, "--lcm-url", "http://there"}, "--lcm-url http://there begins with none");
+  expect_refused({program, "--lcm-url", "http://there"},
+                 "--lcm-url http://there begins with neither");
   const test::TempFile bad(".toml", "[ground]\ncamera_height_m = 145\n");
   expect_refused({program, "--config", bad.path()},
                  bad.path() + ":2: ground.camera_height_m = 145 is outside [0.3, 4]\n");
