@@ -52,15 +52,24 @@ struct Sums {
 
 const char* describe(PictureReason reason) {
   switch (reason) {
-    case PictureReason::kNone: return "";
-    case PictureReason::kRepeated: return "the camera sent the previous picture again";
-    case PictureReason::kFrozen: return "the picture is frozen";
-    case PictureReason::kStale: return "the camera sent an older picture again";
-    case PictureReason::kTorn: return "part of the picture is an older one";
-    case PictureReason::kPartlyFrozen: return "part of the picture is frozen";
-    case PictureReason::kMirrored: return "the picture is mirrored";
-    case PictureReason::kUpsideDown: return "the picture is upside down";
-    case PictureReason::kUnproven: return "the picture shows no sign of life";
+    case PictureReason::kNone:
+      return "";
+    case PictureReason::kRepeated:
+      return "the camera sent the previous picture again";
+    case PictureReason::kFrozen:
+      return "the picture is frozen";
+    case PictureReason::kStale:
+      return "the camera sent an older picture again";
+    case PictureReason::kTorn:
+      return "part of the picture is an older one";
+    case PictureReason::kPartlyFrozen:
+      return "part of the picture is frozen";
+    case PictureReason::kMirrored:
+      return "the picture is mirrored";
+    case PictureReason::kUpsideDown:
+      return "the picture is upside down";
+    case PictureReason::kUnproven:
+      return "the picture shows no sign of life";
   }
   return "";
 }
@@ -102,7 +111,7 @@ bool PictureMemory::judge_still(const PictureStep& step, PictureVerdict* verdict
   verdict->region = textured_ | unsaturated_;
   const double unlike = std::min(1.0, previous_.median_ratio / config_.still_ratio);
   verdict->confidence = repeated ? 1.0 - 0.5 * unlike : 0.5;
-  verdict->reason = !repeated                           ? PictureReason::kUnproven
+  verdict->reason = !repeated                          ? PictureReason::kUnproven
                     : num_repeats_ + 1 >= kFrozenAfter ? PictureReason::kFrozen
                                                        : PictureReason::kRepeated;
   return true;
@@ -230,8 +239,8 @@ BlockMask PictureMemory::returned_blocks(int back) const {
 
 /// Whether the blocks are a band of full rows, or many, while other parts of the picture move.
 bool PictureMemory::is_region(const BlockMask& mask, const BlockMask& judged) const {
-  const auto least = std::max<double>(
-      kMinRegionBlocks, config_.region_share * static_cast<double>(judged.count()));
+  const auto least = std::max<double>(kMinRegionBlocks,
+                                      config_.region_share * static_cast<double>(judged.count()));
   const auto count = static_cast<double>(mask.count());
   if (count < least) return false;
   if (count >= kPatchFactor * least) return true;
@@ -294,8 +303,7 @@ void PictureMemory::apply_flip(PictureVerdict* verdict) {
   const Flip change = motion_.is_still ? Flip::kNone : find_flip();
   flip_ = static_cast<Flip>(static_cast<int>(flip_) ^ static_cast<int>(change));
   if (flip_ == Flip::kNone) return;
-  verdict->reason =
-      flip_ == Flip::kColumns ? PictureReason::kMirrored : PictureReason::kUpsideDown;
+  verdict->reason = flip_ == Flip::kColumns ? PictureReason::kMirrored : PictureReason::kUpsideDown;
   verdict->confidence = 0.8;
 }
 

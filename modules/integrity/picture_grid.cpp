@@ -30,9 +30,8 @@ int sum_of(const std::uint8_t* p, int count) {
 PictureGrid::PictureGrid(int width, int height)
     : width_px(width),
       height_px(height),
-      block_width_px(kColumnStepPx *
-                     ((width + kColumnStepPx * kMaxGridColumns - 1) /
-                      (kColumnStepPx * kMaxGridColumns))),
+      block_width_px(kColumnStepPx * ((width + kColumnStepPx * kMaxGridColumns - 1) /
+                                      (kColumnStepPx * kMaxGridColumns))),
       num_columns(width / block_width_px),
       rows_per_block(std::clamp(height / kGridRows, 1, kMaxRowsPerBlock)),
       first_column_px((width - num_columns * block_width_px) / 2) {}
@@ -59,8 +58,7 @@ void PictureSample::measure_block(int block_row, int column) {
     sum += sum_of(p, width);
     for (int s = 0; s < kNumShifts; ++s) {
       const int shift = 1 << s;
-      differences[static_cast<std::size_t>(s)] +=
-          absolute_differences(p, p + shift, width - shift);
+      differences[static_cast<std::size_t>(s)] += absolute_differences(p, p + shift, width - shift);
     }
   }
   const auto block = static_cast<std::size_t>(block_row * grid_.num_columns + column);

@@ -59,8 +59,8 @@ struct PictureVerdict {
   /// Images since the last fresh one, this one included. 1 in an undisturbed stream. A fresh image
   /// with n > 1 continues the motion of the last fresh image over n image intervals.
   int steps_since_fresh = 1;
-  bool is_still = false;          ///< the picture does not move against the previous image
-  double median_shift_px = 0.0;   ///< apparent shift against the previous image
+  bool is_still = false;         ///< the picture does not move against the previous image
+  double median_shift_px = 0.0;  ///< apparent shift against the previous image
 
   [[nodiscard]] bool is_fresh() const { return reason == PictureReason::kNone; }
 };
@@ -154,7 +154,7 @@ class PictureMemory {
   BlockValues equal_rate_{};      ///< how often a block is bit-equal while the picture moves
   int num_learned_ = 0;
   double noise_floor_grey_ = 0.0;
-  int num_equal_ = 0;         ///< bit-equal images in a row
+  int num_equal_ = 0;           ///< bit-equal images in a row
   bool has_seen_stop_ = false;  ///< the present rest began with a gradual stop
   Flip flip_ = Flip::kNone;
   PictureVerdict last_;
