@@ -21,7 +21,9 @@ constexpr double kLearningRate = 0.1;
 constexpr double kDoubtedRate = 0.02;
 /// Tolerance, as a share of the time, for lying on the line of an older part.
 constexpr double kOldLineShare = 0.05;
-/// A candidate is dropped when the base accepts this many times `agreeing_images` without it.
+/// Messages among which the one before is looked for: every other one may be foreign.
+constexpr std::size_t kReach = 2;
+/// A refused image is forgotten when the base accepts this many times `agreeing_images` without it.
 constexpr int kForgetFactor = 3;
 constexpr double kUnitTolerance = 0.1;
 constexpr std::array<double, 4> kUnits = {1e-6, 1e-3, 1e3, 1e6};
@@ -76,19 +78,17 @@ TimeVerdict TimeBase::update(const TimeStampedImage& image) {
   TimeVerdict verdict;
   verdict.reason = blame(image);
   verdict.reset_count = reset_count_;
-  // The same message once more says nothing about a candidate.
-  for (const Chain& chain : chains_)
-    if (chain.num_images > 0 && same_message(chain.last, image)) return verdict;
-  extend_chain(image);
+  // The same message once more says nothing about a new base.
+  if (was_just_refused(image)) return verdict;
+  refuse(image);
 
-  const Chain& chain = chains_[0];
   const bool is_old =
       verdict.reason == TimeReason::kRepeated || verdict.reason == TimeReason::kOutOfOrder;
   const int needed = has_base_ && is_old ? 2 * config_.agreeing_images : config_.agreeing_images;
-  if (chain.num_since_base >= needed) return adopt_chain();
+  const Chain chain = find_chain(needed);
+  if (chain.num_images >= needed) return adopt(chain);
 
-  const bool base_goes_on = has_base_ && chain.num_since_base == 1 && chain.num_images > 1;
-  if (base_goes_on && !is_old) verdict.reason = TimeReason::kSecondPublisher;
+  if (has_base_ && !is_old && is_second_publisher()) verdict.reason = TimeReason::kSecondPublisher;
   if (verdict.is_next_picture()) ++num_unaccepted_;
   if (has_base_ && verdict.reason == TimeReason::kIntervalDoubted)
     learn(step_between(last_, image), kDoubtedRate);
@@ -110,16 +110,14 @@ bool TimeBase::plausible(const Step& step) const {
 double TimeBase::tolerance_us(const Step& step) const {
   const double jitter = std::max(config_.jitter_s * kSecondsToUs, kSpreadFactor * spread_us_);
   const double drift = kDriftShare * interval_us_ * static_cast<double>(step.num - 1);
-  return std::min(jitter, kLargestShare * interval_us_) + drift;
+  return std::min(jitter + drift, kLargestShare * interval_us_);
 }
 
 bool TimeBase::agrees_with_base(const TimeStampedImage& image) const {
   const Step step = step_between(last_, image);
   if (image.session != last_.session || !plausible(step)) return false;
   const double expected = interval_us_ * static_cast<double>(step.num);
-  // After a long gap the numbers cannot vouch for the time any more: the tolerance would have no bound.
-  const double tolerance = std::min(tolerance_us(step), config_.max_interval_s * kSecondsToUs);
-  return std::abs(step.us - expected) <= tolerance;
+  return std::abs(step.us - expected) <= tolerance_us(step);
 }
 
 bool TimeBase::was_received(const TimeStampedImage& image) const {
@@ -144,9 +142,9 @@ bool TimeBase::in_wrong_unit(const TimeStampedImage& image, const Step& step) co
       is_factor(static_cast<double>(image.stamp_us) / static_cast<double>(last_.stamp_us))) {
     return true;
   }
-  if (has_base_ && chains_[0].num_images == 0) return false;
+  if (has_base_ && num_refused() == 0) return false;
   // Two images or more of a sequence, none of which has ever been right.
-  const Step own = has_base_ ? step_between(chains_[0].last, image) : step;
+  const Step own = has_base_ ? step_between(refused(0).image, image) : step;
   if (own.num < 1 || own.us <= 0.0 || plausible(own)) return false;
   return std::any_of(kUnits.begin(), kUnits.end(), [&](double unit) {
     return plausible({own.num, own.us / unit});
@@ -171,7 +169,8 @@ TimeReason TimeBase::blame(const TimeStampedImage& image) const {
 TimeReason TimeBase::blame_forward(const TimeStampedImage& image, const Step& step) const {
   if (step.us == 0.0) return TimeReason::kStampStalled;
   // A stamp that stands still at a wrong value.
-  if (chains_[0].num_images > 0 && image.stamp_us == chains_[0].last.stamp_us)
+  if (num_refused() > 0 && refused(0).num_accepted == num_accepted_ &&
+      image.stamp_us == refused(0).image.stamp_us)
     return TimeReason::kStampStalled;
   if (step.us < 0.0) return TimeReason::kJumpBack;
   const double expected = interval_us_ * static_cast<double>(step.num);
@@ -188,11 +187,12 @@ TimeReason TimeBase::blame_backward(const Step& step) const {
 
 /// Before there is a base: against the previous image alone.
 TimeReason TimeBase::blame_chain(const TimeStampedImage& image) const {
-  const TimeStampedImage& last = chains_[0].last;
-  if (chains_[0].num_images == 0 || joins(chains_[1], image)) return TimeReason::kStarting;
+  if (num_refused() == 0) return TimeReason::kStarting;
+  if (was_just_refused(image)) return TimeReason::kRepeated;
+  if (follows_refused(image)) return TimeReason::kStarting;
+  const TimeStampedImage& last = refused(0).image;
   if (image.session != last.session) return TimeReason::kSourceRestarted;
   const Step step = step_between(last, image);
-  if (plausible(step)) return TimeReason::kStarting;
   if (step.num == 0) return step.us == 0.0 ? TimeReason::kRepeated : TimeReason::kNumberStalled;
   if (step.num < 0 && step.us > 0.0) return TimeReason::kNumbersAnew;
   if (step.num < 0) {
@@ -215,54 +215,96 @@ TimeVerdict TimeBase::accept(const TimeStampedImage& image) {
   learn(step, kLearningRate);
   last_ = image;
   num_unaccepted_ = 0;
-  for (Chain& chain : chains_) {
-    chain.num_since_base = 0;
-    // Two bad stamps that are far apart are no sequence.
-    if (++chain.num_base_images > kForgetFactor * config_.agreeing_images) chain = {};
-  }
+  ++num_accepted_;
   remember(image);
   return verdict;
 }
 
-/// Whether the image continues the chain with the chain's own interval.
-bool TimeBase::joins(const Chain& chain, const TimeStampedImage& image) const {
-  if (chain.num_images == 0 || chain.last.session != image.session) return false;
-  const Step step = step_between(chain.last, image);
-  if (!plausible(step)) return false;
-  if (chain.num_images == 1) return true;
-  const double per_image = step.us / static_cast<double>(step.num);
-  const double tolerance = std::max(config_.jitter_s * kSecondsToUs, kChainShare * per_image);
-  return std::abs(per_image - chain.interval_us) <= tolerance;
+void TimeBase::refuse(const TimeStampedImage& image) {
+  refused_[num_refused_ % kNumRefused] = {image, num_accepted_};
+  ++num_refused_;
 }
 
-/// Appends the image to the chain that it continues, or begins a new one with as many of the last
-/// images as do agree.
-void TimeBase::extend_chain(const TimeStampedImage& image) {
-  const bool joins_first = joins(chains_[0], image);
-  if (!joins_first && joins(chains_[1], image)) std::swap(chains_[0], chains_[1]);
-  Chain& chain = chains_[0];
-  const Step step = step_between(chain.last, image);
-  if (joins(chain, image)) {
-    ++chain.num_images;
-    ++chain.num_since_base;
-  } else if (chain.num_images > 0 && chain.last.session == image.session && plausible(step)) {
-    chain.num_images = 2;
-    chain.num_since_base = std::min(2, chain.num_since_base + 1);
-    chain.first = chain.last;
-  } else {
-    std::swap(chains_[0], chains_[1]);
-    chains_[0] = {1, 1, 0, image, image, image, kNan};
-    return;
+const TimeBase::Refused& TimeBase::refused(std::size_t back) const {
+  return refused_[(num_refused_ - 1 - back) % kNumRefused];
+}
+
+std::size_t TimeBase::num_refused() const { return std::min(num_refused_, kNumRefused); }
+
+bool TimeBase::was_just_refused(const TimeStampedImage& image) const {
+  for (std::size_t back = 0; back < std::min(kReach, num_refused()); ++back)
+    if (same_message(refused(back).image, image)) return true;
+  return false;
+}
+
+/// Whether the image can be the next one after one of the last refused ones.
+bool TimeBase::follows_refused(const TimeStampedImage& image) const {
+  for (std::size_t back = 0; back < std::min(kReach, num_refused()); ++back) {
+    const TimeStampedImage& old = refused(back).image;
+    if (old.session == image.session && plausible(step_between(old, image))) return true;
   }
-  chain.interval_us = step.us / static_cast<double>(step.num);
-  chain.num_base_images = 0;
-  chain.previous = chain.last;
-  chain.last = image;
+  return false;
 }
 
-/// The candidate becomes the base.
-TimeVerdict TimeBase::adopt_chain() {
-  const Chain chain = chains_[0];
+/// Whether the newest refused image follows one that was refused before the base went on.
+bool TimeBase::is_second_publisher() const {
+  const TimeStampedImage& newest = refused(0).image;
+  for (std::size_t back = 1; back < std::min(kReach + 1, num_refused()); ++back) {
+    const Refused& old = refused(back);
+    const std::int64_t accepted = num_accepted_ - old.num_accepted;
+    // Two bad stamps that are far apart are no sequence.
+    if (accepted < 1 || accepted > kForgetFactor * config_.agreeing_images) continue;
+    if (old.image.session == newest.session && plausible(step_between(old.image, newest)))
+      return true;
+  }
+  return false;
+}
+
+/// The longest chain up to `num_images` that ends at the newest refused image.
+TimeBase::Chain TimeBase::find_chain(int num_images) const {
+  Chain best;
+  for (std::size_t back = 1; back <= kReach; ++back) {
+    const Chain chain = grow_chain(back, num_images);
+    if (chain.num_images > best.num_images) best = chain;
+  }
+  return best;
+}
+
+/// The chain whose last interval is that from the `back`th refused image to the newest one.
+TimeBase::Chain TimeBase::grow_chain(std::size_t back, int num_images) const {
+  Chain chain;
+  chain.last = refused(0).image;
+  TimeStampedImage oldest = chain.last;
+  std::size_t skipped = 0;
+  chain.num_images = 1;
+  for (std::size_t i = back; i < num_refused() && chain.num_images < num_images; ++i) {
+    const Refused& next = refused(i);
+    if (has_base_ && next.num_accepted != num_accepted_) break;
+    const Step step = step_between(next.image, oldest);
+    const double per_image = step.us / static_cast<double>(step.num);
+    const double tolerance =
+        std::max(config_.jitter_s * kSecondsToUs, kChainShare * chain.interval_us);
+    const bool agrees =
+        next.image.session == oldest.session && plausible(step) &&
+        (chain.num_images == 1 || std::abs(per_image - chain.interval_us) <= tolerance);
+    if (!agrees) {
+      if (chain.num_images == 1 || ++skipped >= kReach) break;
+      continue;
+    }
+    if (chain.num_images == 1) {
+      chain.previous = next.image;
+      chain.interval_us = per_image;
+    }
+    skipped = 0;
+    oldest = next.image;
+    ++chain.num_images;
+  }
+  chain.first = oldest;
+  return chain;
+}
+
+/// The chain becomes the base.
+TimeVerdict TimeBase::adopt(const Chain& chain) {
   if (has_base_ && !only_rate_changed(chain)) ++reset_count_;
   const Step all = step_between(chain.first, chain.last);
   TimeVerdict verdict;
@@ -276,13 +318,13 @@ TimeVerdict TimeBase::adopt_chain() {
   last_ = chain.last;
   has_base_ = true;
   num_unaccepted_ = 0;
-  chains_ = {};
+  num_refused_ = 0;
   num_recent_ = 0;
   remember(chain.last);
   return verdict;
 }
 
-/// Whether the candidate continues from the last accepted image, at a rate of its own.
+/// Whether the chain continues from the last accepted image, at a rate of its own.
 bool TimeBase::only_rate_changed(const Chain& chain) const {
   if (chain.first.session != last_.session) return false;
   const Step step = step_between(last_, chain.first);

@@ -1,11 +1,11 @@
 /// Judges the time stamps and sequence numbers of one source, in the order of their arrival.
 ///
 /// The base is the line that the accepted images lie on: a last stamp and number, and the learned
-/// interval per number. An image that agrees with the base is accepted. Images that do not are
-/// collected in two candidate chains: `agreeing_images` in a row that agree among themselves become
-/// the new base, unless the old base accepted an image in between (then somebody else publishes on
-/// the channel). Images that were received before, or belong before the last one, need twice as
-/// many. So a single bad stamp costs one image, and no fault locks the base.
+/// interval per number. An image that agrees with the base is accepted. The others are kept, and
+/// `agreeing_images` of them that agree among themselves become the new base; every other message
+/// in between may be foreign. The base must not have accepted an image meanwhile: then somebody
+/// else publishes on the channel. Images that were received before, or belong before the last
+/// one, need twice as many. So a single bad stamp costs one image, and no fault locks the base.
 ///
 /// What it cannot tell:
 ///   - A stamp that is wrong by less than the source's jitter.
@@ -96,15 +96,19 @@ class TimeBase {
  private:
   static constexpr std::size_t kNumRecent = 64;
 
-  /// Images in a row that agree among themselves.
+  static constexpr std::size_t kNumRefused = 128;
+
+  struct Refused {
+    TimeStampedImage image;
+    std::int64_t num_accepted = 0;  ///< by the base until then
+  };
+  /// Refused images that agree among themselves, the newest one included.
   struct Chain {
     int num_images = 0;
-    int num_since_base = 0;   ///< of them, since the base accepted its last image
-    int num_base_images = 0;  ///< images that the base accepted since the chain grew
     TimeStampedImage first;
     TimeStampedImage previous;
     TimeStampedImage last;
-    double interval_us = kNan;  ///< per number; two images or more
+    double interval_us = kNan;  ///< per number
   };
   struct Step {
     std::int64_t num = 0;
@@ -124,9 +128,15 @@ class TimeBase {
   [[nodiscard]] TimeReason blame_chain(const TimeStampedImage& image) const;
 
   [[nodiscard]] TimeVerdict accept(const TimeStampedImage& image);
-  [[nodiscard]] bool joins(const Chain& chain, const TimeStampedImage& image) const;
-  void extend_chain(const TimeStampedImage& image);
-  [[nodiscard]] TimeVerdict adopt_chain();
+  void refuse(const TimeStampedImage& image);
+  [[nodiscard]] const Refused& refused(std::size_t back) const;  ///< 0: the newest
+  [[nodiscard]] std::size_t num_refused() const;
+  [[nodiscard]] bool was_just_refused(const TimeStampedImage& image) const;
+  [[nodiscard]] bool follows_refused(const TimeStampedImage& image) const;
+  [[nodiscard]] bool is_second_publisher() const;
+  [[nodiscard]] Chain find_chain(int num_images) const;
+  [[nodiscard]] Chain grow_chain(std::size_t back, int num_images) const;
+  [[nodiscard]] TimeVerdict adopt(const Chain& chain);
   [[nodiscard]] bool only_rate_changed(const Chain& chain) const;
   void remember(const TimeStampedImage& image);
   void learn(const Step& step, double rate);
@@ -137,7 +147,9 @@ class TimeBase {
   double interval_us_ = kNan;
   double spread_us_ = 0.0;           ///< mean absolute difference from the expected time
   std::int64_t num_unaccepted_ = 0;  ///< next pictures received since `last_`
-  std::array<Chain, 2> chains_{};    ///< the one extended last comes first
+  std::int64_t num_accepted_ = 0;
+  std::array<Refused, kNumRefused> refused_{};
+  std::size_t num_refused_ = 0;
   std::array<TimeStampedImage, kNumRecent> recent_{};
   std::size_t num_recent_ = 0;
   std::int32_t reset_count_ = 0;
