@@ -25,6 +25,8 @@ constexpr double kOldLineShare = 0.05;
 constexpr std::size_t kReach = 2;
 /// A refused image is forgotten when the base accepts this many times `agreeing_images` without it.
 constexpr int kForgetFactor = 3;
+/// Images of a new base that are further apart have nothing to do with each other.
+constexpr double kLongestLinkUs = 10e6;
 constexpr double kUnitTolerance = 0.1;
 constexpr std::array<double, 4> kUnits = {1e-6, 1e-3, 1e3, 1e6};
 
@@ -285,7 +287,7 @@ TimeBase::Chain TimeBase::grow_chain(std::size_t back, int num_images) const {
     const double tolerance =
         std::max(config_.jitter_s * kSecondsToUs, kChainShare * chain.interval_us);
     const bool agrees =
-        next.image.session == oldest.session && plausible(step) &&
+        next.image.session == oldest.session && plausible(step) && step.us <= kLongestLinkUs &&
         (chain.num_images == 1 || std::abs(per_image - chain.interval_us) <= tolerance);
     if (!agrees) {
       if (chain.num_images == 1 || ++skipped >= kReach) break;
