@@ -127,7 +127,7 @@ bool PictureMemory::stopped_abruptly(const PictureStep& step) const {
 }
 
 bool PictureMemory::noise_vanished() const {
-  return num_equal_ > 0 && num_learned_ >= kMinNoiseImages &&
+  return num_equal_ > 0 && num_noise_images_ >= kMinNoiseImages &&
          noise_floor_grey_ >= config_.noise_floor_grey;
 }
 
@@ -181,6 +181,7 @@ bool PictureMemory::judge_regions(const PictureStep& step, PictureVerdict* verdi
 /// Whether most of the blocks repeated the previous image in the previous image, too.
 bool PictureMemory::region_goes_on(const BlockMask& mask) const {
   const bool was_partial = last_.reason == PictureReason::kPartlyFrozen ||
+                           last_.reason == PictureReason::kRepeated ||
                            (last_.reason == PictureReason::kTorn && last_.images_back == 1);
   return was_partial && (mask & last_.region).count() * 2 > mask.count();
 }
@@ -210,7 +211,7 @@ BlockMask PictureMemory::mute_blocks(const PictureStep& step) const {
   const bool was_fast = step.is_contiguous && last.is_known && !last.is_still &&
                         last.median_px >= required_shift_px(step);
   const bool has_noise =
-      num_learned_ >= kMinNoiseImages && noise_floor_grey_ >= config_.noise_floor_grey;
+      num_noise_images_ >= kMinNoiseImages && noise_floor_grey_ >= config_.noise_floor_grey;
   BlockMask mask;
   for (int b = 0; b < grid_.num_blocks(); ++b) {
     const auto i = static_cast<std::size_t>(b);

@@ -74,6 +74,7 @@ void PictureMemory::reset() {
   equal_rate_ = {};
   num_learned_ = 0;
   noise_floor_grey_ = 0.0;
+  num_noise_images_ = 0;
   num_equal_ = 0;
   has_seen_stop_ = false;
   flip_ = Flip::kNone;
@@ -179,23 +180,34 @@ void PictureMemory::mark_moved() {
   }
 }
 
-/// Learns from images that moved: which blocks do not, and how much the calmest ones differ.
+/// Learns the camera's noise, and from images that moved which blocks do not.
 void PictureMemory::learn() {
-  if (!motion_.is_known || motion_.is_still || motion_.median_px < 1.0) return;
-  const float rate = std::max(kLearningRate, 1.0F / static_cast<float>(num_learned_ + 1));
+  if (!motion_.is_known || num_equal_ > 0) return;
   Values calm;
   for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.num_blocks()); ++i) {
     if (!unsaturated_[i]) continue;
-    calm.add(static_cast<double>(differences_[0][i]));
+    // Noise alone does not grow with the shift, texture does: extrapolates to a shift of 0.
+    const PictureSample& sample = entry(0).sample;
+    const float nugget = 2.0F * sample.structure(0)[i] - sample.structure(1)[i];
+    calm.add(static_cast<double>(std::max(0.0F, std::min(nugget, differences_[0][i]))));
+  }
+  const double calm_grey = calm.quantile(kCalmQuantile);
+  noise_floor_grey_ =
+      num_noise_images_ == 0 ? calm_grey : std::min(calm_grey, noise_floor_grey_ * kFloorRise);
+  ++num_noise_images_;
+  if (!motion_.is_still && motion_.median_px >= 1.0) learn_blocks();
+}
+
+void PictureMemory::learn_blocks() {
+  const float rate = std::max(kLearningRate, 1.0F / static_cast<float>(num_learned_ + 1));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(grid_.num_blocks()); ++i) {
+    if (!unsaturated_[i]) continue;
     const double shift = apparent_shift_px(entry(0).sample, static_cast<int>(i),
                                            static_cast<double>(differences_[0][i]));
     const float bounded = std::min(kMaxLearnedShiftPx, static_cast<float>(shift));
     usual_shift_px_[i] += rate * (bounded - usual_shift_px_[i]);
     equal_rate_[i] += rate * ((differences_[0][i] == 0.0F ? 1.0F : 0.0F) - equal_rate_[i]);
   }
-  const double calm_grey = calm.quantile(kCalmQuantile);
-  noise_floor_grey_ =
-      num_learned_ == 0 ? calm_grey : std::min(calm_grey, noise_floor_grey_ * kFloorRise);
   ++num_learned_;
 }
 

@@ -16,6 +16,7 @@
 ///   - A single repetition with fresh noise below about 2 m/s: it looks like a stop.
 ///   - A picture that was mirrored or upside down from the first image on; only the change is seen.
 ///     Mirrored left to right, the world itself is plausible. Upside down contradicts the plane.
+///   - A repetition from the rebound of the body after a hard stop, for single images.
 ///   - Repetitions with noise when the picture's contrast is not well above that noise.
 /// After a flip, all images are reported as flipped until the picture flips back or reset() is called.
 ///
@@ -116,6 +117,7 @@ class PictureMemory {
   [[nodiscard]] Motion measure_motion() const;
   void mark_moved();
   void learn();
+  void learn_blocks();
 
   void judge(const PictureStep& step, PictureVerdict* verdict);
   [[nodiscard]] bool judge_still(const PictureStep& step, PictureVerdict* verdict) const;
@@ -154,6 +156,7 @@ class PictureMemory {
   BlockValues equal_rate_{};      ///< how often a block is bit-equal while the picture moves
   int num_learned_ = 0;
   double noise_floor_grey_ = 0.0;
+  int num_noise_images_ = 0;
   int num_equal_ = 0;           ///< bit-equal images in a row
   bool has_seen_stop_ = false;  ///< the present rest began with a gradual stop
   Flip flip_ = Flip::kNone;
