@@ -12,7 +12,8 @@ constexpr float kBrightestGrey = 247.0F;
 /// Least contrast over 2 px of a block that is judged at all, and of one judged by itself.
 constexpr double kLeastContrastGrey = 1.0;
 constexpr double kLeastRegionContrastGrey = 1.2;
-/// Blocks with less than this share of the informative blocks' contrast are not judged by themselves.
+/// Blocks with less than this share of the informative blocks' contrast are not judged by
+/// themselves.
 constexpr double kRegionContrastShare = 0.25;
 /// Share of the unsaturated blocks that is less textured than the informative ones.
 constexpr double kPlainShare = 0.6;

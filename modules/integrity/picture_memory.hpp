@@ -1,14 +1,16 @@
 /// Recognises images that were not taken just now: repeated, frozen, stale, torn, mirrored.
 ///
-/// Each image is compared, block by block, with the last `memory_images` images. Two figures decide
-/// per block: the mean absolute difference, relative to the block's own contrast (alike or not), and
-/// the shift that would explain the difference (how fast the picture moved). The evidence is:
+/// Each image is compared, block by block, with the last `memory_images` images. Two figures
+/// decide per block: the mean absolute difference, relative to the block's own contrast (alike or
+/// not), and the shift that would explain the difference (how fast the picture moved). The
+/// evidence is:
 ///   abrupt stop    the picture moved fast and steadily, and from one image to the next not at all;
 ///                  a braking car slows down over several images first
 ///   return         the picture equals one of k >= 2 images ago, and not the previous one
 ///   vanished noise nearly all blocks are bit-equal although the camera has always shown noise
 ///   region         one of these for a band of rows or a large part of the picture only
-///   flip           the mirrored or turned image continues the previous one, the image itself does not
+///   flip           the mirrored or turned image continues the previous one, the image as it is
+///                  does not
 ///
 /// What it cannot tell:
 ///   - A picture that is frozen from the first image on, or froze at rest, and carries fresh noise:
@@ -18,7 +20,8 @@
 ///     Mirrored left to right, the world itself is plausible. Upside down contradicts the plane.
 ///   - A repetition from the rebound of the body after a hard stop, for single images.
 ///   - Repetitions with noise when the picture's contrast is not well above that noise.
-/// After a flip, all images are reported as flipped until the picture flips back or reset() is called.
+/// After a flip, all images are reported as flipped until the picture flips back or reset() is
+/// called.
 ///
 /// How to use  Only images whose verdict is_fresh() may be used for motion, for standstill or as
 ///             reference of the next motion. Their own stamps are right; see `steps_since_fresh`.
