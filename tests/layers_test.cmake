@@ -3,7 +3,7 @@
 # Purity: core, and each module's own library, reach no I/O, clock, transport, OpenCV or platform. What may is told by its
 # place (datasets, chain, processes) or its name (*_wire.*, *_node.*, *_source.*).
 set(layers core platform
-  modules/datasets modules/detections modules/camera modules/detector modules/vo
+  modules/datasets modules/detections modules/integrity modules/camera modules/detector modules/vo
   modules/ground/types modules/ground/filter modules/ground/covariance modules/ground/cues modules/ground/ego modules/ground
   modules/ground_paper modules/mount modules/objects modules/can modules/chain modules/processes
   tools tests)
