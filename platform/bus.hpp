@@ -170,8 +170,11 @@ class Subscriber {
 template <typename Message>
 class Publisher {
  public:
-  /// `max_bytes` is the largest encoding. The default suits every message of fixed size.
-  Publisher(Bus& bus, const Channel& channel, std::size_t max_bytes = sizeof(Message) + 8)
+  /// Makes room for the largest encoding of a message that has a limit (max_encoded_bytes).
+  Publisher(Bus& bus, const Channel& channel)
+      : Publisher(bus, channel, max_encoded_bytes(static_cast<const Message*>(nullptr))) {}
+  /// `max_bytes` is the largest encoding.
+  Publisher(Bus& bus, const Channel& channel, std::size_t max_bytes)
       : Publisher(bus, channel, max_bytes, &bus.counters()) {}
   Publisher(Bus& bus, const Channel& channel, std::size_t max_bytes, Counters* counters)
       : bus_(bus), channel_(channel), counters_(counters), buffer_(max_bytes) {}

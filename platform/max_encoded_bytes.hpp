@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "plumb/detections_t.hpp"
+#include "plumb/ground_plane_t.hpp"
 #include "plumb/objects_t.hpp"
 #include "plumb/process_health_t.hpp"
 
@@ -20,6 +21,9 @@ requires std::is_trivially_copyable_v<Message>
 }
 [[nodiscard]] constexpr std::size_t max_encoded_bytes(const detections_t* /*type*/) {
   return sizeof(detections_t) + detections_t::MAX_DETECTIONS * sizeof(detection_t) + 8;
+}
+[[nodiscard]] constexpr std::size_t max_encoded_bytes(const ground_plane_t* /*type*/) {
+  return sizeof(ground_plane_t) + ground_plane_t::MAX_CUES * sizeof(ground_cue_t) + 8;
 }
 [[nodiscard]] constexpr std::size_t max_encoded_bytes(const objects_t* /*type*/) {
   return sizeof(objects_t) + objects_t::MAX_OBJECTS * sizeof(object_t) + 8;
