@@ -17,7 +17,7 @@ constexpr double kLargestShare = 0.45;
 constexpr double kChainShare = 0.3;
 /// Rate by which the interval may drift while images are missing.
 constexpr double kDriftShare = 0.02;
-constexpr double kLearningRate = 0.1;
+constexpr double kIntervalLearningRate = 0.1;
 constexpr double kDoubtedRate = 0.02;
 /// Tolerance, as a share of the time, for lying on the line of an older part.
 constexpr double kOldLineShare = 0.05;
@@ -214,7 +214,7 @@ TimeVerdict TimeBase::accept(const TimeStampedImage& image) {
   verdict.num_lost = std::max<std::int64_t>(0, step.num - 1 - num_unaccepted_);
   verdict.reason = verdict.num_lost > 0 ? TimeReason::kGap : TimeReason::kNone;
   verdict.reset_count = reset_count_;
-  learn(step, kLearningRate);
+  learn(step, kIntervalLearningRate);
   last_ = image;
   num_unaccepted_ = 0;
   ++num_accepted_;
@@ -345,7 +345,7 @@ void TimeBase::learn(const Step& step, double rate) {
   const double per_image = step.us / static_cast<double>(step.num);
   const double off = std::abs(per_image - interval_us_);
   spread_us_ += rate * (std::min(off, 0.5 * interval_us_) - spread_us_);
-  if (rate == kLearningRate) interval_us_ += rate * (per_image - interval_us_);
+  if (rate == kIntervalLearningRate) interval_us_ += rate * (per_image - interval_us_);
 }
 
 }  // namespace plumb
