@@ -10,7 +10,7 @@ from plumb_tools.hard_cases.measure import ReplayedDrive
 from plumb_tools.hard_cases.rendering import render
 from plumb_tools.programs import OUT, ROOT, Programs, add_bin_option
 
-CASES_FILE = ROOT / 'tests/hard_cases/cases.toml'
+TABLES = [ROOT / 'tests/hard_cases' / name for name in ('cases.toml', 'camera_cases.toml')]
 
 
 def replay(case, log, folder, programs, user_config):
@@ -56,17 +56,18 @@ def parse_options(known):
 
 
 def main():
-    table = tomllib.loads(CASES_FILE.read_text())
-    cases = {case['name']: case for case in table['case']}
+    tables = [tomllib.loads(path.read_text()) for path in TABLES]
+    defaults = tables[0]['defaults']
+    cases = {case['name']: case for table in tables for case in table['case']}
     options = parse_options(tuple(cases))
     if options.list:
-        print('\n'.join(f"{case['name']:<24} {case['what']}" for case in table['case']))
+        print('\n'.join(f"{case['name']:<24} {case['what']}" for case in cases.values()))
         return 0
     programs = Programs(options.bin, 'plumb-synth', 'plumb-kitti2lcm', 'plumb-replay', 'plumb-eval')
     rows, broken = [], []
     for name in options.cases or cases:
         case, folder = cases[name], options.out / name
-        drive, log = render(case, table['defaults'], folder, programs, options.reuse)
+        drive, log = render(case, defaults, folder, programs, options.reuse)
         replay(case, log, folder, programs, options.config)
         figures = measure(case, drive, folder, programs)
         (folder / 'result.json').write_text(json.dumps(figures, indent=1))
