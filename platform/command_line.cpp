@@ -34,6 +34,19 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// What is wrong with the first word when it stands in place of a command and looks like none of
+/// the files that may stand there, too. Empty when nothing is wrong.
+std::string unknown_command(const CLI::App& app, const std::string& first_word) {
+  const std::vector<std::string> commands = command_names(app);
+  if (commands.empty() || !app.get_subcommands().empty() || first_word.rfind('-', 0) == 0) {
+    return {};
+  }
+  const std::string near = did_you_mean(first_word, commands);
+  const bool is_file = first_word.find_first_of("./") != std::string::npos;
+  if (app.get_require_subcommand_min() == 0 && (near.empty() || is_file)) return {};
+  return "unknown command " + first_word + near;
+}
+
 /// What is wrong with the first word that no option or argument took; empty when all were taken.
 std::string unknown_word(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining(true);
@@ -47,9 +60,7 @@ std::string unknown_word(const CLI::App& app) {
         "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
     return "unknown option " + name + did_you_mean(dashed, option_names(command));
   }
-  const std::vector<std::string> commands = command_names(command);
-  if (commands.empty()) return "unexpected argument " + words.front();
-  return "unknown command " + words.front() + did_you_mean(words.front(), commands);
+  return "unexpected argument " + words.front();
 }
 
 std::optional<double> number_in(const std::string& text) {
@@ -61,7 +72,10 @@ std::optional<double> number_in(const std::string& text) {
 }
 
 /// CLI11's message in a whole sentence, where it has none.
-std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
+std::string sentence(const CLI::App& app, const CLI::ParseError& error,
+                     const std::string& first_word) {
+  const std::string command = unknown_command(app, first_word);
+  if (!command.empty()) return command;
   // What is missing may be misspelt: an unknown option explains more than a missing one.
   const std::string unknown = unknown_word(app);
   if (!unknown.empty()) return unknown;
@@ -96,7 +110,7 @@ int parse_command_line(CLI::App& app, const char* program, int argc, char** argv
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success) == 0 ? kExitOk : kExitMachine;
   } catch (const CLI::ParseError& error) {
-    const std::string what = sentence(app, error);
+    const std::string what = sentence(app, error, argc > 1 ? argv[1] : "-");
     const bool complete = what.back() == '?';
     std::fprintf(stderr, "%s: %s%s\n", program, what.c_str(),
                  complete ? "" : " (--help lists the options)");

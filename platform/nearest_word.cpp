@@ -40,7 +40,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
   std::string nearest;
-  std::size_t best = word.size() / 3 + 1;
+  // One letter in three may be wrong, and one of two.
+  std::size_t best = word.size() == 2 ? 2 : word.size() / 3 + 1;
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance >= best) continue;

@@ -71,7 +71,7 @@ TEST(CommandLine, NamesTheNearestCommandAndItsOptions) {
   Program typo;
   typo.add_commands();
   EXPECT_EQ("plumb-test: unknown command smaple; did you mean sample?\n",
-            typo.sentence({"a.lcm", "smaple"}));
+            typo.sentence({"smaple", "a.lcm", "--out", "b"}));
   Program option;
   option.add_commands();
   EXPECT_EQ("plumb-test: unknown option --plane; did you mean --planes?\n",

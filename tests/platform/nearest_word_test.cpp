@@ -21,6 +21,8 @@ TEST(NearestWord, TakesTheClosestAndTheFirstOfEquals) {
   EXPECT_EQ("--poses", nearest_word("--pose", known));
   EXPECT_EQ("--csv", nearest_word("--cvs", known));
   EXPECT_EQ("aab", nearest_word("aaa", {"aab", "aac"}));
+  EXPECT_EQ("k1", nearest_word("k3", {"k1", "k2", "focal"}));
+  EXPECT_EQ("", nearest_word("k", {"x", "y"}));
 }
 
 TEST(NearestWord, FallsBackToAWordThatContainsTheOther) {

@@ -17,7 +17,7 @@ int tool_main(CLI::App* app, int argc, char** argv, const std::function<int()>& 
   } catch (const std::exception& error) {
     std::fflush(stdout);
     std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
-    return kExitBadInput;
+    return kExitRefused;
   }
 }
 

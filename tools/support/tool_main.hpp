@@ -5,9 +5,9 @@
 #include <CLI/App.hpp>
 #include <functional>
 
-namespace plumb {
+#include "platform/exit_code.hpp"
 
-inline constexpr int kExitBadInput = 2;
+namespace plumb {
 
 /// Adds --version to `app`, parses, then calls `run`. Returns what the process should exit with: 0,
 /// what `run` returned, or 2 after printing one sentence to stderr for wrong options and for any

@@ -177,7 +177,7 @@ int run(const Arguments& arguments) {
   outputs.close();
   print_summary(arguments, replay, outputs, effort);
   std::cout.flush();
-  return report_trouble(arguments.log, reader, replay) ? kExitBadInput : 0;
+  return report_trouble(arguments.log, reader, replay) ? kExitRefused : 0;
 }
 
 void add_options(CLI::App* app, Arguments* arguments) {
