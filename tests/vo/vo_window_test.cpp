@@ -90,7 +90,7 @@ TEST(Track, RemembersInWhichSlotsItWasSeen) {
   EXPECT_EQ(track.shown_xy_in(3), track.xy_in(3));
   EXPECT_TRUE(track.seen_in(3));
   EXPECT_FALSE(track.seen_in(4));
-  track.forget(3);
+  track.remove_observation(3);
   EXPECT_FALSE(track.seen_in(3));
   EXPECT_EQ(track.xy_in(11), Eigen::Vector2d(0.3, 0.4));
 }
