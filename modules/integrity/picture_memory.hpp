@@ -19,6 +19,8 @@
 ///   - A picture that was mirrored or upside down from the first image on; only the change is seen.
 ///     Mirrored left to right, the world itself is plausible. Upside down contradicts the plane.
 ///   - A repetition from the rebound of the body after a hard stop, for single images.
+///   - A single torn band in the middle of the picture that is three or more images old, where the
+///     scene has little texture.
 ///   - Repetitions with noise when the picture's contrast is not well above that noise.
 /// After a flip, all images are reported as flipped until the picture flips back or reset() is
 /// called.

@@ -86,8 +86,9 @@ TEST(Config, RefusesTheWrongType) {
   EXPECT_EQ("bad.toml:1: camera.lens.rectify = 1 is neither true nor false",
             refusal("camera.lens.rectify = 1"));
   EXPECT_EQ("bad.toml:1: camera.folder = 3 is not text in quotes", refusal("camera.folder = 3"));
-  EXPECT_EQ("bad.toml:1: camera.lens.model = 'fish' is none of pinhole, fisheye",
-            refusal("camera.lens.model = 'fish'"));
+  EXPECT_EQ(
+      "bad.toml:1: camera.lens.model = 'fish' is none of pinhole, fisheye; did you mean fisheye?",
+      refusal("camera.lens.model = 'fish'"));
   EXPECT_EQ("bad.toml:1: vo.max_tracks = [ 100 ] is not a whole number",
             refusal("vo.max_tracks = [100]"));
 }
