@@ -66,7 +66,7 @@ TEST_F(SampleFile, AppearsWholeOrNotAtAll) {
 
 TEST_F(SampleFile, OfAnotherVersionIsRefused) {
   test::expect_contains(
-      test::input_error_of([&] { (void)read_samples(changed("version 2", "version 1")); }),
+      test::input_error_of([&] { (void)read_samples(changed("version 3", "version 1")); }),
       "changed.csv:1: holds samples of version '1'");
 }
 

@@ -83,7 +83,7 @@ TEST_F(TrainProgram, SamplesARealDriveOnceAndKeepsTheFile) {
   EXPECT_LT(std::abs(last.dense_err_height), 0.08);
   EXPECT_LT(std::abs(last.dense_err_given), 0.03);
   EXPECT_LT(std::abs(last.out_scale_err), 0.05);
-  EXPECT_NE(run(arguments).out.find("is there already"), std::string::npos);
+  EXPECT_NE(run(arguments).out.find("exists already"), std::string::npos);
 }
 
 }  // namespace
