@@ -1,0 +1,1 @@
+"""The parts of documents_test.py."""
