@@ -18,15 +18,15 @@ def check_programs(text, tree):
 
 
 def _known_options(command, tree):
-    """Who a command runs and the help that has to list its options; None when it is not one of ours."""
+    """Who a command runs, its arguments, and the help that has to list its options; None when it is not ours."""
     script = re.search(r"(?<![\w/])(?:tools|tests)/[\w/]+", command)
     program = re.search(r"\b(plumb-[a-z0-9]+)(?: +([a-z]+)\b)?", command)
     if script and (tree.root / script.group(0)).is_file():
-        return script.group(0), tree.script_help(script.group(0))
+        return script.group(0), command[script.end():], tree.script_help(script.group(0))
     if program and program.group(1) in tree.programs:
         name, word = program.groups()
         subcommand = word if word in tree.subcommands(name) else ""
-        return f"{name} {subcommand}".strip(), tree.help_of(name, subcommand)
+        return f"{name} {subcommand}".strip(), command[program.end():], tree.help_of(name, subcommand)
     return None
 
 
@@ -42,9 +42,12 @@ def check_options(text, tree):
             continue
         for command in re.split(r"\s&\s|\s&$|;|\s\|\s|&&|\$\(", line):
             known = _known_options(command, tree)
-            for option in sorted(set(re.findall(r"(?<!\S)(--[a-z][a-z0-9-]*)", command))) if known else []:
-                if not has_option(known[1], option):
-                    yield f"{known[0]} has no option {option}"
+            if known is None:
+                continue
+            name, arguments, said = known
+            for option in sorted(set(re.findall(r"(?<!\S)(--[a-z][a-z0-9-]*)", arguments))):
+                if not has_option(said, option):
+                    yield f"{name} has no option {option}"
 
 
 def check_settings(text, tree):
