@@ -70,7 +70,7 @@ def check_messages(text, tree):
         if name not in known and name not in tree.words and not tree.is_foreign(name):
             yield f"neither a channel nor a constant of a message: {name}"
     for name in {item for item in markdown.spans(text) if re.fullmatch(r"[A-Z]{3,}", item)}:
-        if name not in known and name not in tree.can_frames and not (tree.root / name).exists():
+        if name not in known and not tree.is_foreign(name) and not (tree.root / name).exists():
             yield f"no channel {name}"
     for name, field in sorted(set(re.findall(r"(?<![\w.:])([a-z]\w*_t)\b(?:\.([A-Za-z]\w*\b(?!\*)))?", code))):
         if re.fullmatch(r"u?int\d+_t|size_t|bot_core|image_metadata_t", name) or tree.is_foreign(name):
@@ -114,8 +114,8 @@ def check_paths(text, tree):
 def check_identifiers(text, tree):
     """Identifiers of the sources: with an underscore, or with several capitals like CamelCase and kConstants."""
     for item in markdown.spans(text):
-        for name in set(re.findall(r"(?<![\w/.-])[A-Za-z_]\w*", item)):
-            if not re.search(r"[a-z0-9]_[A-Za-z0-9]|[a-z][A-Z]", name) or name in tree.words:
+        for name in set(re.findall(rf"(?<![\w/.-])[A-Za-z_]\w*\b(?!\.(?:{_FILE_ENDINGS})\b)", item)):
+            if not re.search(r"[a-z0-9]_[A-Za-z0-9]|[a-z][A-Z]", name) or name in tree.words or name.endswith("_t"):
                 continue
             known = name in tree.can_signals | tree.can_frames | set(tree.fields) or tree.is_foreign(name)
             if not known and not any(name in path.parts or name == path.stem for path in tree.files):

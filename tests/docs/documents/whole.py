@@ -54,7 +54,7 @@ def reachable(tree):
 def channels_of(process, tree):
     """What a process reads and what it writes, by its source and core/channels.hpp. Health is left out."""
     source = (tree.root / f"modules/processes/plumb_{process}.cpp").read_text(encoding="utf8")
-    used = {tree.channel_of[name] for name in re.findall(r"\bplumb::(k\w+)", source) if name in tree.channel_of}
+    used = {tree.channel_of[name] for name in re.findall(r"\bk[A-Z]\w+", source) if name in tree.channel_of}
     used |= {name for name, publisher in tree.publisher_of.items() if publisher == process}
     used = {name for name in used if not name.startswith("HEALTH_")}
     writes = {name for name in used if tree.publisher_of[name] == process}
