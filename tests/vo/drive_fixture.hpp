@@ -1,4 +1,4 @@
-/// Drives a VisualOdometry through rendered images and keeps what it said.
+/// Runs a VisualOdometry on rendered images and keeps its results.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace plumb::test {
 
-/// The parts of VoOutput that tests ask for after the fact.
+/// The parts of VoOutput that tests compare after a drive.
 struct Said {
   VoStatus status;
   VoReason reason;
@@ -65,7 +65,7 @@ class Drive {
   std::vector<Said> said_;
 };
 
-/// Forward steps per unit of VO's length, over `said` rows [from, to).
+/// Returns the mean length of the translations in the results [from, to), in [vo].
 inline double mean_step(const Drive& drive, std::size_t from, std::size_t to) {
   double sum = 0.0;
   for (std::size_t i = from; i < to; ++i) sum += drive.said()[i].T_prev_cam.t.norm();

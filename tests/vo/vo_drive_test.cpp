@@ -1,4 +1,4 @@
-/// The whole odometry on rendered drives whose truth is exact.
+/// Tests the whole odometry on rendered drives with exact truth.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -37,7 +37,7 @@ TEST(Drive, AheadAndThroughABendItMeasuresEveryMotion) {
   }
 }
 
-TEST(Drive, EveryMotionFromTheFirstOnKnowsItsDeviation) {
+TEST(Drive, EveryMotionFromTheFirstOnHasItsCovariance) {
   const std::vector<Se3> poses = drive(15, 0.8);
   Drive d;
   std::size_t num_ok = 0;
@@ -138,7 +138,7 @@ TEST(Standstill, CreepingAddsUpInsteadOfBeingLost) {
   EXPECT_NEAR(z, 0.6, 0.06);
 }
 
-TEST(Rotation, TurningOnTheSpotKeepsPlaceLandmarksAndScale) {
+TEST(Rotation, TurningOnTheSpotKeepsPositionLandmarksAndScale) {
   const std::vector<Se3> before = drive(16, 0.8);
   Drive d;
   for (const Se3& T : before) d.see(T);
@@ -182,7 +182,7 @@ TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
   }
   const double before = mean_step(d, 10, 18);
   EXPECT_NEAR(mean_step(d, 26, 34) / before, 1.0, 0.04);
-  // The first good frame takes back what the prediction got wrong.
+  // The first good frame corrects the error of the prediction.
   double whole = 0.0;
   for (std::size_t i = 18; i <= 24; ++i) whole += d.said()[i].T_prev_cam.t.z();
   EXPECT_NEAR(whole / (7.0 * before), 1.0, 0.04);
@@ -219,7 +219,7 @@ TEST(Restart, AnotherPlaceGetsANewEpochWithTheSpeedBefore) {
   Drive d;
   for (const Se3& T : drive(16, 0.6)) d.see(T);
   const double before = mean_step(d, 10, 16);
-  // Far down the street nothing of before is in sight.
+  // Far down the street, no landmark of before is visible.
   Se3 T{Eigen::Matrix3d::Identity(), {0.3, 0.0, 90.0}};
   int restarted_after = -1;
   for (int i = 0; i < 12; ++i) {
@@ -234,7 +234,7 @@ TEST(Restart, AnotherPlaceGetsANewEpochWithTheSpeedBefore) {
   EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
 }
 
-TEST(Restart, AfterALongLossTheUnitIsCarriedWithTheDoubtThatGrew) {
+TEST(Restart, AfterALongLossTheUnitIsCarriedWithALargerStandardDeviation) {
   Drive d;
   for (const Se3& T : drive(16, 0.6)) d.see(T);
   const double before = mean_step(d, 10, 16);
@@ -251,11 +251,11 @@ TEST(Restart, AfterALongLossTheUnitIsCarriedWithTheDoubtThatGrew) {
   EXPECT_EQ(d.last().status, VoStatus::kOk);
   EXPECT_EQ(d.last().scale_epoch, 1);
   EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
-  EXPECT_GT(carry_std, 0.1);  // five seconds are long
+  EXPECT_GT(carry_std, 0.1) << "five seconds are long";
   EXPECT_LT(carry_std, 2.0);
 }
 
-TEST(Start, AtHighSpeedASecondLookIsEnough) {
+TEST(Start, AtHighSpeedAFewImagesAreEnough) {
   for (const double step : {1.4, 2.0, 2.7}) {
     Drive d;
     int first_ok = -1;
@@ -270,7 +270,7 @@ TEST(Start, AtHighSpeedASecondLookIsEnough) {
   }
 }
 
-TEST(Input, MissingFramesAreSaidAndBridged) {
+TEST(Input, MissingFramesAreReportedAndBridged) {
   const std::vector<Se3> poses = drive(24, 0.5);
   Drive d;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -319,7 +319,7 @@ TEST(Input, AnImageOfAnotherSizeIsRefused) {
   EXPECT_EQ(d.last().prev_seq, -1);
 }
 
-TEST(Determinism, TwoInstancesSayTheSameBits) {
+TEST(Determinism, TwoInstancesGiveTheSameBits) {
   const std::vector<Se3> poses = drive(25, 0.9, 0.01);
   Drive a;
   Drive b;
@@ -354,8 +354,8 @@ TEST(Distortion, AResidualRadialTermIsTakenIntoAccount) {
   }
 }
 
-/// Root mean square of the turns' errors along a winding path, when rows are exposed over 30 of
-/// every 100 ms and VO is told `told_s`.
+/// Returns the root mean square error of the rotations along a winding path. The rows are exposed
+/// over 30 of every 100 ms, while the odometry is given a readout time of `told_s`.
 double turn_error_under_rolling_shutter(double told_s) {
   CameraModel shutter = test::scene_camera();
   shutter.readout_s = 0.03;
