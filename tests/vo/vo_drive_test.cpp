@@ -23,17 +23,17 @@ TEST(Drive, AheadAndThroughABendItMeasuresEveryMotion) {
   for (int i = 0; i < 15; ++i) poses.push_back(poses.back() * turn);
   Drive d;
   for (const Se3& T_world_cam : poses) d.see(T_world_cam);
-  EXPECT_EQ(d.said()[0].status, VoStatus::kInitializing);
-  EXPECT_EQ(d.said()[0].reason, VoReason::kFirstFrame);
-  EXPECT_EQ(d.said()[0].prev_seq, -1);
+  EXPECT_EQ(d.results()[0].status, VoStatus::kInitializing);
+  EXPECT_EQ(d.results()[0].reason, VoReason::kFirstFrame);
+  EXPECT_EQ(d.results()[0].prev_seq, -1);
   const double unit = mean_step(d, 4, poses.size()) / 0.8;
   for (std::size_t i = 4; i < poses.size(); ++i) {
-    ASSERT_EQ(d.said()[i].status, VoStatus::kOk) << i;
+    ASSERT_EQ(d.results()[i].status, VoStatus::kOk) << i;
     const Se3 truth = poses[i - 1].inverse() * poses[i];
-    EXPECT_LT(rotation_error(d.said()[i].T_prev_cam, truth), 1.5e-3) << i;
-    EXPECT_LT((d.said()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
-    EXPECT_EQ(d.said()[i].prev_seq, static_cast<std::int64_t>(i) - 1);
-    EXPECT_EQ(d.said()[i].scale_epoch, 0);
+    EXPECT_LT(rotation_error(d.results()[i].T_prev_cam, truth), 1.5e-3) << i;
+    EXPECT_LT((d.results()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
+    EXPECT_EQ(d.results()[i].prev_seq, static_cast<std::int64_t>(i) - 1);
+    EXPECT_EQ(d.results()[i].scale_epoch, 0);
   }
 }
 
@@ -158,7 +158,7 @@ TEST(Rotation, TurningOnTheSpotKeepsPositionLandmarksAndScale) {
     ASSERT_EQ(d.last().status, VoStatus::kOk) << i;
     EXPECT_EQ(d.last().scale_epoch, 0);
   }
-  EXPECT_NEAR(mean_step(d, d.said().size() - 6, d.said().size()) / (0.8 * unit), 1.0, 0.04);
+  EXPECT_NEAR(mean_step(d, d.results().size() - 6, d.results().size()) / (0.8 * unit), 1.0, 0.04);
 }
 
 TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
@@ -171,7 +171,7 @@ TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
       EXPECT_EQ(d.last().status, VoStatus::kCoasting);
       EXPECT_EQ(d.last().reason, VoReason::kImageDark);
       EXPECT_GT(d.last().T_prev_cam.t.z(), 0.0);
-      EXPECT_GT(d.last().cov_prev_cam(2, 2), d.said()[17].cov(2, 2));
+      EXPECT_GT(d.last().cov_prev_cam(2, 2), d.results()[17].cov(2, 2));
     } else {
       d.see(poses[i]);
     }
@@ -184,7 +184,7 @@ TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
   EXPECT_NEAR(mean_step(d, 26, 34) / before, 1.0, 0.04);
   // The first good frame corrects the error of the prediction.
   double whole = 0.0;
-  for (std::size_t i = 18; i <= 24; ++i) whole += d.said()[i].T_prev_cam.t.z();
+  for (std::size_t i = 18; i <= 24; ++i) whole += d.results()[i].T_prev_cam.t.z();
   EXPECT_NEAR(whole / (7.0 * before), 1.0, 0.04);
 }
 
@@ -231,7 +231,7 @@ TEST(Restart, AnotherPlaceGetsANewEpochWithTheSpeedBefore) {
   EXPECT_LE(restarted_after, 3);
   EXPECT_EQ(d.last().scale_epoch, 1);
   EXPECT_EQ(d.last().status, VoStatus::kOk);
-  EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
+  EXPECT_NEAR(mean_step(d, d.results().size() - 5, d.results().size()) / before, 1.0, 0.15);
 }
 
 TEST(Restart, AfterALongLossTheUnitIsCarriedWithALargerStandardDeviation) {
@@ -250,7 +250,7 @@ TEST(Restart, AfterALongLossTheUnitIsCarriedWithALargerStandardDeviation) {
   }
   EXPECT_EQ(d.last().status, VoStatus::kOk);
   EXPECT_EQ(d.last().scale_epoch, 1);
-  EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
+  EXPECT_NEAR(mean_step(d, d.results().size() - 5, d.results().size()) / before, 1.0, 0.15);
   EXPECT_GT(carry_std, 0.1) << "five seconds are long";
   EXPECT_LT(carry_std, 2.0);
 }
@@ -282,7 +282,7 @@ TEST(Input, MissingFramesAreReportedAndBridged) {
     if (i == 16) {
       EXPECT_EQ(d.last().reason, VoReason::kFramesMissing);
       EXPECT_EQ(d.last().prev_seq, 13);
-      EXPECT_NEAR(d.last().T_prev_cam.t.norm() / (3.0 * d.said()[13].T_prev_cam.t.norm()), 1.0,
+      EXPECT_NEAR(d.last().T_prev_cam.t.norm() / (3.0 * d.results()[13].T_prev_cam.t.norm()), 1.0,
                   0.04);
     } else if (i > 5) {
       EXPECT_EQ(d.last().reason, VoReason::kNone) << i;
@@ -349,8 +349,8 @@ TEST(Distortion, AResidualRadialTermIsTakenIntoAccount) {
   const double unit = mean_step(d, 4, poses.size()) / 0.8;
   for (std::size_t i = 4; i < poses.size(); ++i) {
     const Se3 truth = poses[i - 1].inverse() * poses[i];
-    EXPECT_LT(rotation_error(d.said()[i].T_prev_cam, truth), 1.5e-3) << i;
-    EXPECT_LT((d.said()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
+    EXPECT_LT(rotation_error(d.results()[i].T_prev_cam, truth), 1.5e-3) << i;
+    EXPECT_LT((d.results()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
   }
 }
 
