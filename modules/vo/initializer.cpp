@@ -35,8 +35,7 @@ double speed_carry_std(double measured_speed, double unseen_s) {
   return std::hypot(kSpeedStdRatio, change_std / std::max(measured_speed, 1e-3));
 }
 
-/// Returns the pose of the frame before the newest one, or of the newest one when there is no
-/// other.
+/// Returns the pose of the frame before the newest one, or of the newest one if it is alone.
 Se3 previous_pose(const LocalMap& map) {
   const Window& window = map.window;
   return window.num_history() > 1 ? window.past_pose(window.history()[1])

@@ -142,13 +142,13 @@ int Keyframes::start_tracks(int slot, const Pyramid& image, TrackTable& tracks,
   detector_.clear();
   for (const int index : tracks.active()) detector_.occupy(0.5 * tracks[index].px);
   collect_neighbours(slot, tracks, window);
-  // Corners are detected on level 1: its scale suits the size of the patches, at a quarter of the
-  // work.
+  // Corners are detected on level 1, whose scale suits the size of the patches. It also takes
+  // only a quarter of the time.
   const CornerOptions options{config_.min_corner_grey2, 0.5 * (camera_.cy_px + kHorizonMarginPx)};
   int num_new = 0;
   for (const Eigen::Vector2d& half_px : detector_.detect(image.level(1), options)) {
-    const Eigen::Vector2d px =
-        2.0 * half_px;  // whole pixels, so that the host patch is not interpolated
+    // Whole pixels, so that the host patch is not interpolated.
+    const Eigen::Vector2d px = 2.0 * half_px;
     const int index = tracks.add();
     if (index < 0) break;
     Track& track = tracks[index];

@@ -113,7 +113,11 @@ Matrix6d motion_covariance(const PoseFit& pose, const Se3& T_prev_world) {
   const Matrix6d cov = kCovarianceInflation * information.inverse();
   Matrix6d J = -Matrix6d::Identity();
   J.topLeftCorner<3, 3>() = -(T_prev_world.R * pose.T_cam_world.R.transpose());
-  return J * cov * J.transpose();
+  // Eigen rounds a product that is assigned differently from one that initialises a matrix. The
+  // assignment keeps the bits of recorded results.
+  Matrix6d result;
+  result = J * cov * J.transpose();
+  return result;
 }
 
 }  // namespace plumb::vo

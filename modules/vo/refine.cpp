@@ -213,7 +213,7 @@ void WindowRefiner::restore(Window& window, TrackTable& tracks) const {
 }
 
 // Applies the step to the frames and computes the steps of the inverse depths from it. A step is
-// limited so that the depth keeps its sign and at most triples.
+// limited so that an inverse depth stays positive and grows at most about threefold.
 void WindowRefiner::apply(Window& window, TrackTable& tracks) {
   for (std::size_t i = 0; i < free_slots_.size(); ++i) {
     perturb(window[free_slots_[i]].T_cam_world, step_[i]);

@@ -15,7 +15,8 @@
 ///   Normal equations for the largest window in place; one Structure per track, allocated by the
 ///   constructor.
 /// Errors:
-///   A step that does not reduce the cost is undone. Frames and depths are then as before it.
+///   A step that increases the cost is undone, and the next one has more damping. The last step is
+///   not checked.
 #pragma once
 
 #include <Eigen/Core>

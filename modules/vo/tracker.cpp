@@ -118,8 +118,8 @@ void Tracker::predict_by_pose(const TrackTable& tracks, const Window& window,
     const Eigen::Vector3d Y = transfer_point(T_cam_host[host], track.host_xy, track.rho);
     const Eigen::Vector3d Y_prev = transfer_point(T_prev_host[host], track.host_xy, track.rho);
     if (Y.z() < kMinDepthRatio || Y_prev.z() < kMinDepthRatio) continue;
-    // When the depth is uncertain, the predicted flow is added to the previous position, so that
-    // the error of the depth affects the flow alone.
+    // With an uncertain depth or a rolling shutter, the projected position is biased. The predicted
+    // flow, added to the previous position, is not, because the biases of both images cancel.
     const Eigen::Vector2d now = camera_.project(Y);
     const Eigen::Vector2d before = camera_.project(Y_prev);
     const bool usable = track.rho_std < kUsableDepth * track.rho && camera_.readout_s <= 0.0;

@@ -42,7 +42,7 @@ struct RotationFit {
   double median_px = 0.0;  ///< median residual
 };
 /// Fits a rotation to the pairs by Gauss-Newton with Cauchy weights.
-/// @param scratch  holds the residuals; its capacity must be pairs.size()
+/// @param scratch  holds the residuals; its capacity must be at least pairs.size()
 [[nodiscard]] RotationFit fit_rotation(const std::vector<RayPair>& pairs, double focal_px,
                                        std::vector<double>& scratch);
 

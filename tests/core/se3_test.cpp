@@ -51,7 +51,7 @@ TEST(Se3, InnerFramesCancel) {
 }
 
 TEST(Se3, NormalizeRestoresOrthogonality) {
-  Se3 T{exp_so3({0.1, 0.2, 0.3}) * 1.001, {}};
+  Se3 T{exp_so3({0.1, 0.2, 0.3}) * 1.001, Eigen::Vector3d::Zero()};
   T.normalize();
   EXPECT_LT((T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
 }

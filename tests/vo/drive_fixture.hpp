@@ -1,4 +1,4 @@
-/// Drives a VisualOdometry through rendered images and keeps what it said.
+/// Runs a VisualOdometry on rendered images and keeps its results.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 namespace plumb::test {
 
-/// The parts of VoOutput that tests ask for after the fact.
-struct Said {
+/// The parts of VoOutput that tests compare after a drive.
+struct Result {
   VoStatus status;
   VoReason reason;
   std::int32_t scale_epoch;
@@ -44,14 +44,14 @@ class Drive {
   }
   const VoOutput& show(const VoInput& input) {
     last_ = &odometry_.update(input, probe_);
-    said_.push_back({last_->status, last_->reason, last_->scale_epoch, last_->scale_carry_std,
-                     last_->prev_seq, last_->T_prev_cam, last_->cov_prev_cam, last_->num_new});
+    results_.push_back({last_->status, last_->reason, last_->scale_epoch, last_->scale_carry_std,
+                        last_->prev_seq, last_->T_prev_cam, last_->cov_prev_cam, last_->num_new});
     return *last_;
   }
   void skip(int frames) { next_ += frames; }
 
   [[nodiscard]] const VoOutput& last() const { return *last_; }
-  [[nodiscard]] const std::vector<Said>& said() const { return said_; }
+  [[nodiscard]] const std::vector<Result>& results() const { return results_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] std::int64_t next_seq() const { return next_; }
 
@@ -62,13 +62,13 @@ class Drive {
   unsigned noise_seed_ = 100;
   std::int64_t next_ = 0;
   const VoOutput* last_ = nullptr;
-  std::vector<Said> said_;
+  std::vector<Result> results_;
 };
 
-/// Forward steps per unit of VO's length, over `said` rows [from, to).
+/// Returns the mean length of the translations in results [from, to), in [vo].
 inline double mean_step(const Drive& drive, std::size_t from, std::size_t to) {
   double sum = 0.0;
-  for (std::size_t i = from; i < to; ++i) sum += drive.said()[i].T_prev_cam.t.norm();
+  for (std::size_t i = from; i < to; ++i) sum += drive.results()[i].T_prev_cam.t.norm();
   return sum / static_cast<double>(to - from);
 }
 

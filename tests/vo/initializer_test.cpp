@@ -50,7 +50,8 @@ TEST(Initializer, ACameraThatStandsIsAtStandstill) {
 
 TEST(Initializer, ATurnOnTheSpotGivesNoDepth) {
   MapFixture fixture;
-  for (int i = 0; i < 6; ++i) fixture.initialize({exp_so3({0.0, 0.01 * i, 0.0}), {}});
+  for (int i = 0; i < 6; ++i)
+    fixture.initialize({exp_so3({0.0, 0.01 * i, 0.0}), Eigen::Vector3d::Zero()});
   EXPECT_FALSE(fixture.initializer.done());
 }
 

@@ -1,4 +1,4 @@
-/// A window of frames and tracks with exact truth, for the estimators' tests.
+/// A window of frames and tracks with exact truth, for the tests of the estimators.
 #pragma once
 
 #include <random>
@@ -11,7 +11,7 @@
 namespace plumb::vo::test {
 
 struct SyntheticWindow {
-  static constexpr int kWidth = 64;  // images are not looked at
+  static constexpr int kWidth = 64;  // the images are not used
   static constexpr int kHeight = 64;
   Eigen::Vector2d focal_px{720.0, 720.0};
   Window window{kWidth, kHeight};
@@ -19,8 +19,8 @@ struct SyntheticWindow {
   std::vector<Se3> T_cam_world;  // truth, by slot
   std::vector<double> rho;       // truth, by track index
 
-  /// `num_keyframes` one unit apart on a gentle curve; every track is hosted in one of the first
-  /// half of them and seen in every later frame it projects into.
+  /// Places `num_keyframes` keyframes one unit apart on a gentle curve. Every track is hosted by
+  /// one of the first half of them and is seen by every later one.
   SyntheticWindow(int num_keyframes, int num_tracks, double noise_px, unsigned seed = 3) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

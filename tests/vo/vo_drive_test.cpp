@@ -1,4 +1,4 @@
-/// The whole odometry on rendered drives whose truth is exact.
+/// Tests the whole odometry on rendered drives with exact truth.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -23,21 +23,21 @@ TEST(Drive, AheadAndThroughABendItMeasuresEveryMotion) {
   for (int i = 0; i < 15; ++i) poses.push_back(poses.back() * turn);
   Drive d;
   for (const Se3& T_world_cam : poses) d.see(T_world_cam);
-  EXPECT_EQ(d.said()[0].status, VoStatus::kInitializing);
-  EXPECT_EQ(d.said()[0].reason, VoReason::kFirstFrame);
-  EXPECT_EQ(d.said()[0].prev_seq, -1);
+  EXPECT_EQ(d.results()[0].status, VoStatus::kInitializing);
+  EXPECT_EQ(d.results()[0].reason, VoReason::kFirstFrame);
+  EXPECT_EQ(d.results()[0].prev_seq, -1);
   const double unit = mean_step(d, 4, poses.size()) / 0.8;
   for (std::size_t i = 4; i < poses.size(); ++i) {
-    ASSERT_EQ(d.said()[i].status, VoStatus::kOk) << i;
+    ASSERT_EQ(d.results()[i].status, VoStatus::kOk) << i;
     const Se3 truth = poses[i - 1].inverse() * poses[i];
-    EXPECT_LT(rotation_error(d.said()[i].T_prev_cam, truth), 1.5e-3) << i;
-    EXPECT_LT((d.said()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
-    EXPECT_EQ(d.said()[i].prev_seq, static_cast<std::int64_t>(i) - 1);
-    EXPECT_EQ(d.said()[i].scale_epoch, 0);
+    EXPECT_LT(rotation_error(d.results()[i].T_prev_cam, truth), 1.5e-3) << i;
+    EXPECT_LT((d.results()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
+    EXPECT_EQ(d.results()[i].prev_seq, static_cast<std::int64_t>(i) - 1);
+    EXPECT_EQ(d.results()[i].scale_epoch, 0);
   }
 }
 
-TEST(Drive, EveryMotionFromTheFirstOnKnowsItsDeviation) {
+TEST(Drive, EveryMotionFromTheFirstOnHasItsCovariance) {
   const std::vector<Se3> poses = drive(15, 0.8);
   Drive d;
   std::size_t num_ok = 0;
@@ -138,7 +138,7 @@ TEST(Standstill, CreepingAddsUpInsteadOfBeingLost) {
   EXPECT_NEAR(z, 0.6, 0.06);
 }
 
-TEST(Rotation, TurningOnTheSpotKeepsPlaceLandmarksAndScale) {
+TEST(Rotation, TurningOnTheSpotKeepsPositionLandmarksAndScale) {
   const std::vector<Se3> before = drive(16, 0.8);
   Drive d;
   for (const Se3& T : before) d.see(T);
@@ -158,7 +158,7 @@ TEST(Rotation, TurningOnTheSpotKeepsPlaceLandmarksAndScale) {
     ASSERT_EQ(d.last().status, VoStatus::kOk) << i;
     EXPECT_EQ(d.last().scale_epoch, 0);
   }
-  EXPECT_NEAR(mean_step(d, d.said().size() - 6, d.said().size()) / (0.8 * unit), 1.0, 0.04);
+  EXPECT_NEAR(mean_step(d, d.results().size() - 6, d.results().size()) / (0.8 * unit), 1.0, 0.04);
 }
 
 TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
@@ -171,7 +171,7 @@ TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
       EXPECT_EQ(d.last().status, VoStatus::kCoasting);
       EXPECT_EQ(d.last().reason, VoReason::kImageDark);
       EXPECT_GT(d.last().T_prev_cam.t.z(), 0.0);
-      EXPECT_GT(d.last().cov_prev_cam(2, 2), d.said()[17].cov(2, 2));
+      EXPECT_GT(d.last().cov_prev_cam(2, 2), d.results()[17].cov(2, 2));
     } else {
       d.see(poses[i]);
     }
@@ -182,9 +182,9 @@ TEST(Coasting, OverABlackoutItPredictsAndFindsItsLandmarksAgain) {
   }
   const double before = mean_step(d, 10, 18);
   EXPECT_NEAR(mean_step(d, 26, 34) / before, 1.0, 0.04);
-  // The first good frame takes back what the prediction got wrong.
+  // The first good frame corrects the error of the prediction.
   double whole = 0.0;
-  for (std::size_t i = 18; i <= 24; ++i) whole += d.said()[i].T_prev_cam.t.z();
+  for (std::size_t i = 18; i <= 24; ++i) whole += d.results()[i].T_prev_cam.t.z();
   EXPECT_NEAR(whole / (7.0 * before), 1.0, 0.04);
 }
 
@@ -219,7 +219,7 @@ TEST(Restart, AnotherPlaceGetsANewEpochWithTheSpeedBefore) {
   Drive d;
   for (const Se3& T : drive(16, 0.6)) d.see(T);
   const double before = mean_step(d, 10, 16);
-  // Far down the street nothing of before is in sight.
+  // Far down the street, no landmark of before is visible.
   Se3 T{Eigen::Matrix3d::Identity(), {0.3, 0.0, 90.0}};
   int restarted_after = -1;
   for (int i = 0; i < 12; ++i) {
@@ -231,10 +231,10 @@ TEST(Restart, AnotherPlaceGetsANewEpochWithTheSpeedBefore) {
   EXPECT_LE(restarted_after, 3);
   EXPECT_EQ(d.last().scale_epoch, 1);
   EXPECT_EQ(d.last().status, VoStatus::kOk);
-  EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
+  EXPECT_NEAR(mean_step(d, d.results().size() - 5, d.results().size()) / before, 1.0, 0.15);
 }
 
-TEST(Restart, AfterALongLossTheUnitIsCarriedWithTheDoubtThatGrew) {
+TEST(Restart, AfterALongLossTheUnitIsCarriedWithALargerStandardDeviation) {
   Drive d;
   for (const Se3& T : drive(16, 0.6)) d.see(T);
   const double before = mean_step(d, 10, 16);
@@ -250,12 +250,12 @@ TEST(Restart, AfterALongLossTheUnitIsCarriedWithTheDoubtThatGrew) {
   }
   EXPECT_EQ(d.last().status, VoStatus::kOk);
   EXPECT_EQ(d.last().scale_epoch, 1);
-  EXPECT_NEAR(mean_step(d, d.said().size() - 5, d.said().size()) / before, 1.0, 0.15);
-  EXPECT_GT(carry_std, 0.1);  // five seconds are long
+  EXPECT_NEAR(mean_step(d, d.results().size() - 5, d.results().size()) / before, 1.0, 0.15);
+  EXPECT_GT(carry_std, 0.1) << "five seconds are long";
   EXPECT_LT(carry_std, 2.0);
 }
 
-TEST(Start, AtHighSpeedASecondLookIsEnough) {
+TEST(Start, AtHighSpeedAFewImagesAreEnough) {
   for (const double step : {1.4, 2.0, 2.7}) {
     Drive d;
     int first_ok = -1;
@@ -270,7 +270,7 @@ TEST(Start, AtHighSpeedASecondLookIsEnough) {
   }
 }
 
-TEST(Input, MissingFramesAreSaidAndBridged) {
+TEST(Input, MissingFramesAreReportedAndBridged) {
   const std::vector<Se3> poses = drive(24, 0.5);
   Drive d;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -282,7 +282,7 @@ TEST(Input, MissingFramesAreSaidAndBridged) {
     if (i == 16) {
       EXPECT_EQ(d.last().reason, VoReason::kFramesMissing);
       EXPECT_EQ(d.last().prev_seq, 13);
-      EXPECT_NEAR(d.last().T_prev_cam.t.norm() / (3.0 * d.said()[13].T_prev_cam.t.norm()), 1.0,
+      EXPECT_NEAR(d.last().T_prev_cam.t.norm() / (3.0 * d.results()[13].T_prev_cam.t.norm()), 1.0,
                   0.04);
     } else if (i > 5) {
       EXPECT_EQ(d.last().reason, VoReason::kNone) << i;
@@ -319,7 +319,7 @@ TEST(Input, AnImageOfAnotherSizeIsRefused) {
   EXPECT_EQ(d.last().prev_seq, -1);
 }
 
-TEST(Determinism, TwoInstancesSayTheSameBits) {
+TEST(Determinism, TwoInstancesGiveTheSameBits) {
   const std::vector<Se3> poses = drive(25, 0.9, 0.01);
   Drive a;
   Drive b;
@@ -349,13 +349,13 @@ TEST(Distortion, AResidualRadialTermIsTakenIntoAccount) {
   const double unit = mean_step(d, 4, poses.size()) / 0.8;
   for (std::size_t i = 4; i < poses.size(); ++i) {
     const Se3 truth = poses[i - 1].inverse() * poses[i];
-    EXPECT_LT(rotation_error(d.said()[i].T_prev_cam, truth), 1.5e-3) << i;
-    EXPECT_LT((d.said()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
+    EXPECT_LT(rotation_error(d.results()[i].T_prev_cam, truth), 1.5e-3) << i;
+    EXPECT_LT((d.results()[i].T_prev_cam.t / unit - truth.t).norm(), 0.04) << i;
   }
 }
 
-/// Root mean square of the turns' errors along a winding path, when rows are exposed over 30 of
-/// every 100 ms and VO is told `told_s`.
+/// Returns the root mean square error of the rotations along a winding path. The rows are exposed
+/// over 30 of every 100 ms, while the odometry is given a readout time of `told_s`.
 double turn_error_under_rolling_shutter(double told_s) {
   CameraModel shutter = test::scene_camera();
   shutter.readout_s = 0.03;

@@ -33,7 +33,7 @@ Se3 moved(Se3 T, const Vector6d& step) {
   return T;
 }
 
-TEST(Jacobians, OfTheSeeingFrameMatchesCentralDifferences) {
+TEST(Jacobians, OfTheObservingFrameMatchesCentralDifferences) {
   const Se3 T = kFramePose * kHostPose.inverse();
   const Eigen::Vector3d Y = T.R * kXy.homogeneous() + kRho * T.t;
   const Matrix26d J = frame_jacobian(projection_jacobian(Y, kFocal), Y, kRho);
@@ -91,12 +91,12 @@ TEST(Pose, ItsInformationPredictsItsError) {
     e.tail<3>() = log_so3(R_error);
     sum += e.dot(fit.information * e) / 6.0;
   }
-  // Cauchy weights understate the information of Gaussian noise by about a third.
+  // With Gaussian noise, the Cauchy weights state about a third less information than there is.
   EXPECT_GT(sum / kTrials, 0.5);
   EXPECT_LT(sum / kTrials, 1.3);
 }
 
-TEST(Pose, HoldingTheTranslationTurnsAboutTheCamerasCentre) {
+TEST(Pose, WithRotationOnlyTheCameraCentreStays) {
   const SyntheticWindow s(6, 120, 0.0);
   const Se3 truth = s.T_cam_world.back();
   const Eigen::Matrix3d E = exp_so3({0.0, 0.01, 0.0});
@@ -117,7 +117,7 @@ TEST(InverseDepth, ConvergesFromAWrongStart) {
   }
 }
 
-TEST(InverseDepth, WithoutParallaxThePriorHolds) {
+TEST(InverseDepth, WithoutParallaxThePriorStays) {
   SyntheticWindow s(2, 20, 0.0);
   s.window[1].T_cam_world = s.window[0].T_cam_world;
   for (const int index : s.tracks.active()) {
@@ -156,8 +156,8 @@ void disturb(SyntheticWindow& s) {
   for (const int index : s.tracks.active()) s.tracks[index].rho *= 1.0 + 0.1 * std::sin(index);
 }
 
-// The distance between the first two frames is the unit; only that can drift when one frame is
-// held.
+// Returns the estimated length of the whole path as a ratio to the true one. Only this scale can
+// drift when a single frame is constant.
 double scale_of(const SyntheticWindow& s) {
   return s.window[s.last_slot()].T_cam_world.inverse().t.norm() /
          s.T_cam_world.back().inverse().t.norm();
@@ -197,7 +197,7 @@ TEST(Refine, FixedKeyframesStayAndCarryTheScale) {
   }
 }
 
-TEST(Refine, WithNoiseInverseDepthDeviationsAreConsistent) {
+TEST(Refine, WithNoiseTheStandardDeviationsOfInverseDepthsAreConsistent) {
   double sum = 0.0;
   int count = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {

@@ -31,7 +31,7 @@ TEST(Corners, FindsTheCornerOfASquareAndNothingOnItsEdges) {
   }
 }
 
-TEST(Corners, TakenCellsAndTheirSurroundingsStayEmpty) {
+TEST(Corners, OccupiedCellsAndTheirSurroundingsStayEmpty) {
   const Scene scene(scene_camera());
   const RenderedImage image = scene.render(Se3{}, 1.0);
   CornerDetector detector(620, 188, 300);
@@ -61,7 +61,7 @@ TEST(Corners, TheThresholdIsLowerBelowTheHorizon) {
   for (const Eigen::Vector2d& px : corners) EXPECT_GT(px.y(), 140.0);
 }
 
-TEST(ImageHealth, TellsDarkFlatAndFrozenFromGood) {
+TEST(ImageHealth, DistinguishesDarkFlatAndFrozenImages) {
   const VoConfig config;
   const Scene scene(scene_camera());
   const RenderedImage good = scene.render(Se3{}, 1.0, 1);
@@ -73,7 +73,7 @@ TEST(ImageHealth, TellsDarkFlatAndFrozenFromGood) {
   EXPECT_EQ(judge_image(same_place.view(), good.view(), config), VoReason::kNone);
 }
 
-TEST(ImageHealth, MeasuresMeanAndDeviation) {
+TEST(ImageHealth, MeasuresMeanAndStandardDeviation) {
   RenderedImage image = plain(50);
   for (std::size_t i = 0; i < image.pixels.size(); i += 2) image.pixels[i] = 150;
   const ImageLevels levels = measure_levels(image.view());

@@ -1,4 +1,5 @@
-/// Real frames: rotation and direction against the drive's own truth, and the heap again.
+/// Tests rotation and direction of translation on real images against the truth of the drive, and
+/// that nothing is allocated.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Nothing in the odometry touches the heap once it is built, whatever happens to it.
+/// Tests that the odometry allocates nothing after construction, in every state.
 #include <gtest/gtest.h>
 
 #include "tests/support/count_malloc.hpp"

@@ -11,7 +11,7 @@ namespace {
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 
-/// A smooth texture, sampled wherever a warp says.
+/// A smooth texture that can be sampled anywhere.
 struct Texture {
   static double at(double u, double v) {
     return 125.0 + 30.0 * std::sin(0.31 * u + 0.12 * v) + 25.0 * std::sin(0.17 * u - 0.41 * v) +
@@ -24,7 +24,7 @@ struct TestImage {
   [[nodiscard]] ImageView view() const { return {pixels.data(), kWidth, kHeight, kWidth}; }
 };
 
-/// Image whose pixel x shows the texture at centre + A (x - centre - shift).
+/// Returns an image whose pixel x shows the texture at centre + A (x - centre - shift).
 TestImage warped(const Eigen::Matrix2d& A, const Eigen::Vector2d& shift, double gain, double bias) {
   const Eigen::Vector2d centre(80.0, 60.0);
   TestImage image;
@@ -53,7 +53,7 @@ TEST(Patch, FindsAShiftToAFiftiethOfAPixel) {
   }
 }
 
-TEST(Patch, DoesNotCareAboutGainAndBrightness) {
+TEST(Patch, IsInvariantToGainAndBrightness) {
   const TestImage a = warped(Eigen::Matrix2d::Identity(), {0.0, 0.0}, 1.0, 0.0);
   const TestImage b = warped(Eigen::Matrix2d::Identity(), {0.6, 0.3}, 0.5, 70.0);
   Patch<5> patch;
@@ -78,7 +78,7 @@ TEST(Patch, AWarpedTemplateMatchesAScaledAndTurnedImage) {
   EXPECT_GT(found.ncc, 0.99F);
 }
 
-TEST(Patch, RefusesFlatGroundAndTheImagesEdge) {
+TEST(Patch, RefusesFlatPatchesAndTheEdgeOfTheImage) {
   TestImage flat;
   std::fill(flat.pixels.begin(), flat.pixels.end(), static_cast<std::uint8_t>(90));
   Patch<7> patch;

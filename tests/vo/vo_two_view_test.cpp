@@ -15,7 +15,7 @@ struct Views {
   std::vector<double> rho;
 };
 
-/// Points 4 to 60 away, seen in both views, `outliers` of them moved at random.
+/// Makes points 4 to 60 units away that both views see. A share of `outliers` is moved at random.
 Views make_views(const Se3& T_second_first, int count, double noise_px, double outliers) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -79,7 +79,7 @@ TEST(TwoView, SurvivesNoiseAndAThirdOfOutliers) {
   EXPECT_LT((found.T_second_first.t - forward().t.normalized()).norm(), 0.02);
 }
 
-TEST(TwoView, SameSeedSameResult) {
+TEST(TwoView, TheSameSeedGivesTheSameResult) {
   const Views views = make_views(forward(), 150, 0.3, 0.2);
   Random a(5);
   Random b(5);

@@ -40,7 +40,7 @@ TEST(Window, StoresACopyOfAKeyframesImage) {
   EXPECT_EQ(window.image(slot).at(63, 63), 9);
 }
 
-TEST(Window, PastPosesFollowTheFrameTheyHangOn) {
+TEST(Window, PastPosesFollowTheFrameTheyAreRelativeTo) {
   Window window(64, 64);
   window.make_keyframe(window.add(0, at(0.0)), kImage);
   const int middle = window.add(1, at(1.0));
@@ -48,12 +48,11 @@ TEST(Window, PastPosesFollowTheFrameTheyHangOn) {
   window.remove(middle);
   EXPECT_LT((window.past_pose(window.history()[1]).t - at(1.0).t).norm(), 1e-12);
   const Se3 correction{exp_so3({0.0, 0.1, 0.0}), {0.5, 0.0, 0.0}};
-  window[last].T_cam_world =
-      window[last].T_cam_world * correction;  // the world seen from there moves
+  window[last].T_cam_world = window[last].T_cam_world * correction;  // the newest frame is refined
   EXPECT_LT((window.past_pose(window.history()[1]).t - (at(1.0) * correction).t).norm(), 1e-12);
 }
 
-TEST(Window, HistoryHoldsTheLastTwelveNewestFirst) {
+TEST(Window, TheHistoryHasTheLastTwelveFramesNewestFirst) {
   Window window(64, 64);
   window.make_keyframe(window.add(0, at(0.0)), kImage);
   for (int i = 1; i < 30; ++i) window.remember(i, at(0.1 * i), i % 2 == 0);
@@ -82,7 +81,7 @@ TEST(TrackTable, FreedTracksAreUsedAgainAndRefusedWhenFull) {
   EXPECT_EQ(tracks.add(), -1);
 }
 
-TEST(Track, RemembersInWhichSlotsItWasSeen) {
+TEST(Track, HasTheSlotsInWhichItWasSeen) {
   Track track;
   track.observe(3, {0.1, 0.2});
   track.observe(11, {0.3, 0.4}, {0.0, -0.25});

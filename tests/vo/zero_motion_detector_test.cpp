@@ -32,7 +32,7 @@ TEST_F(ZeroMotionDetectorTest, AStepForwardMoves) {
 }
 
 TEST_F(ZeroMotionDetectorTest, ATurnOnTheSpotIsNoTranslation) {
-  const Se3 turned = moved_by({exp_so3({0.0, 0.02, 0.0}), {}});
+  const Se3 turned = moved_by({exp_so3({0.0, 0.02, 0.0}), Eigen::Vector3d::Zero()});
   ASSERT_EQ(detector_.judge(fixture_.map, turned), ZeroMotion::kTranslation);
   const Se3 held = detector_.hold(fixture_.map, turned, ZeroMotion::kTranslation);
   const Eigen::Vector3d centre = held.inverse().t;

@@ -89,7 +89,7 @@ TEST(VoWire, RefusesCountsAndNumbersOutOfRange) {
             refusal([](vo_motion_t* m) { m->num_inliers = -1; }));
 }
 
-TEST(VoWire, RefusesPosesThatAreNone) {
+TEST(VoWire, RefusesInvalidPoses) {
   const std::string pose = "VO motion: the relative pose is not a pose";
   EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->q_prev_cam[0] = kNan; }));
   EXPECT_EQ(pose, refusal([](vo_motion_t* m) { m->q_prev_cam[2] += 0.01; }));
@@ -103,7 +103,7 @@ TEST(VoWire, RefusesPosesThatAreNone) {
             refusal([](vo_motion_t* m) { m->window_seq[4] = 100; }));
 }
 
-TEST(VoWire, RefusesDeviationsAndPointsThatAreNone) {
+TEST(VoWire, RefusesInvalidCovariancesAndPoints) {
   const std::string cov = "VO motion: the covariance is not a covariance";
   EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][3] = kNan; }));
   EXPECT_EQ(cov, refusal([](vo_motion_t* m) { m->cov_prev_cam[2][2] = -1e-9; }));
