@@ -38,6 +38,7 @@ struct Process::Impl {
 
   ProcessInfo info;
   std::string program;
+  std::int64_t session = realtime_us();
   CLI::App app;
   std::string url;
   std::string config_path;
@@ -75,6 +76,7 @@ void Process::declare_print(const char* flag, const char* help, std::function<st
 }
 
 const std::string& Process::config_path() const { return impl_->config_path; }
+std::int64_t Process::session() const { return impl_->session; }
 Bus& Process::bus() { return *impl_->bus; }
 EventLoop& Process::loop() { return *impl_->loop; }
 Health& Process::health() { return impl_->health; }

@@ -75,6 +75,8 @@ class Process {
 
   // The following are valid inside `setup` and in callbacks.
   [[nodiscard]] const std::string& config_path() const;  ///< empty when none was given
+  /// [us] Calendar time at which the process started: names this run in the messages it sends.
+  [[nodiscard]] std::int64_t session() const;
   [[nodiscard]] Bus& bus();
   [[nodiscard]] EventLoop& loop();
   [[nodiscard]] Health& health();

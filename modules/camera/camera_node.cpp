@@ -32,9 +32,10 @@ FrontEnd make_front_end(const CameraConfig& config, const std::filesystem::path&
 }  // namespace
 
 CameraNode::CameraNode(const CameraConfig& config, const std::filesystem::path& folder,
-                       StageProbe* probe)
+                       StageProbe* probe, std::int64_t session)
     : model_(published_model(config, config.width_px, config.height_px)),
       probe_(probe),
+      session_(session),
       front_end_(make_front_end(config, folder)),
       published_(static_cast<std::size_t>(config.width_px) *
                  static_cast<std::size_t>(config.height_px)) {}
@@ -42,7 +43,7 @@ CameraNode::CameraNode(const CameraConfig& config, const std::filesystem::path& 
 const image_t& CameraNode::take(const GreyFrame& frame) {
   fault_ = front_end_.process(frame.image, published_.data(), probe_);
   const ImageView image{published_.data(), model_.width_px, model_.height_px, model_.width_px};
-  to_wire(frame.capture_us, frame.seq, image, &message_);
+  to_wire(frame.capture_us, frame.seq, image, &message_, session_);
   probe_->mark("to_wire");
   return message_;
 }

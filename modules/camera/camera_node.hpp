@@ -22,9 +22,10 @@ namespace plumb {
 class CameraNode {
  public:
   /// A relative camera.mask_file is relative to `folder`.
-  /// `probe` outlives the node. Throws UsageError.
+  /// `probe` outlives the node. `session` names this run in the images. Throws UsageError.
   /// @pre the image size and the focal lengths in `config` are set
-  CameraNode(const CameraConfig& config, const std::filesystem::path& folder, StageProbe* probe);
+  CameraNode(const CameraConfig& config, const std::filesystem::path& folder, StageProbe* probe,
+             std::int64_t session = 0);
 
   /// Builds the message of the frame, which is valid until the next call.
   /// @pre the frame has the configured size
@@ -39,6 +40,7 @@ class CameraNode {
  private:
   CameraModel model_;
   StageProbe* probe_;
+  std::int64_t session_;
   FrontEnd front_end_;
   std::vector<std::uint8_t> published_;
   image_t message_{};

@@ -16,24 +16,26 @@ constexpr int kMinSide_px = 64;
 constexpr int kMaxSide_px = 8192;
 constexpr int kMaxMetadata = 16;
 constexpr std::string_view kSeqKey = "seq";
+constexpr std::string_view kSessionKey = "session";
 
-bool is_seq_key(std::span<const std::uint8_t> text) {
-  return text.size() == kSeqKey.size() &&
-         std::memcmp(text.data(), kSeqKey.data(), text.size()) == 0;
+bool is_key(std::span<const std::uint8_t> text, std::string_view key) {
+  return text.size() == key.size() && std::memcmp(text.data(), key.data(), key.size()) == 0;
 }
 
 const char* read_metadata(WireCursor* cursor, ImageFrame* frame) {
   const std::int32_t count = cursor->i32();
   if (!cursor->ok() || count < 0 || count > kMaxMetadata) return "image metadata does not decode";
   bool has_seq = false;
+  frame->session = 0;
   for (std::int32_t i = 0; i < count; ++i) {
     const auto key = cursor->text();
     const auto value = cursor->take(cursor->i32());
     if (!cursor->ok()) return "image metadata does not decode";
-    if (!is_seq_key(key)) continue;
-    if (value.size() != 8) return "image sequence number is not 8 bytes";
-    frame->seq = WireCursor(value).i64();
-    has_seq = true;
+    const bool is_seq = is_key(key, kSeqKey);
+    if (!is_seq && !is_key(key, kSessionKey)) continue;
+    if (value.size() != 8) return "image metadata 'seq' or 'session' is not 8 bytes";
+    (is_seq ? frame->seq : frame->session) = WireCursor(value).i64();
+    has_seq = has_seq || is_seq;
   }
   return has_seq ? nullptr : "image has no sequence number ('seq' metadata)";
 }
@@ -55,20 +57,26 @@ const char* check_layout(const ImageFrame& frame, std::int32_t format) {
   return nullptr;
 }
 
-void fill(std::int64_t capture_us, std::int64_t seq, int width_px, int height_px,
-          image_t* message) {
+void fill_number(std::string_view key, std::int64_t number, image_metadata_t* entry) {
+  entry->key = key;
+  entry->n = 8;
+  entry->value.resize(8);
+  for (std::size_t i = 0; i < 8; ++i) {
+    entry->value[i] =
+        static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> (8U * (7U - i)));
+  }
+}
+
+void fill(std::int64_t capture_us, std::int64_t seq, std::int64_t session, int width_px,
+          int height_px, image_t* message) {
   message->utime = capture_us;
   message->width = width_px;
   message->height = height_px;
   message->size = static_cast<std::int32_t>(message->data.size());
-  message->nmetadata = 1;
-  message->metadata.resize(1);
-  image_metadata_t& entry = message->metadata.front();
-  entry.key = kSeqKey;
-  entry.n = 8;
-  entry.value.resize(8);
-  for (std::size_t i = 0; i < 8; ++i)
-    entry.value[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(seq) >> (8U * (7U - i)));
+  message->nmetadata = session == 0 ? 1 : 2;
+  message->metadata.resize(static_cast<std::size_t>(message->nmetadata));
+  fill_number(kSeqKey, seq, &message->metadata.front());
+  if (session != 0) fill_number(kSessionKey, session, &message->metadata.back());
 }
 
 // Checks width and height in the header of the JPEG, before the decoder allocates for them.
@@ -113,14 +121,15 @@ const char* read_image(std::span<const std::uint8_t> bytes, ImageFrame* frame) {
   return check_layout(*frame, format);
 }
 
-void to_wire(std::int64_t capture_us, std::int64_t seq, const ImageView& image, image_t* message) {
+void to_wire(std::int64_t capture_us, std::int64_t seq, const ImageView& image, image_t* message,
+             std::int64_t session) {
   const auto width = static_cast<std::size_t>(image.width_px);
   message->data.resize(width * static_cast<std::size_t>(image.height_px));
   for (int v = 0; v < image.height_px; ++v)
     std::memcpy(message->data.data() + static_cast<std::size_t>(v) * width, image.row(v), width);
   message->row_stride = image.width_px;
   message->pixelformat = image_t::PIXEL_FORMAT_GRAY;
-  fill(capture_us, seq, image.width_px, image.height_px, message);
+  fill(capture_us, seq, session, image.width_px, image.height_px, message);
 }
 
 void to_wire_jpeg(std::int64_t capture_us, std::int64_t seq, int width_px, int height_px,
@@ -128,7 +137,7 @@ void to_wire_jpeg(std::int64_t capture_us, std::int64_t seq, int width_px, int h
   message->data.assign(jpeg.begin(), jpeg.end());
   message->row_stride = 0;
   message->pixelformat = image_t::PIXEL_FORMAT_MJPEG;
-  fill(capture_us, seq, width_px, height_px, message);
+  fill(capture_us, seq, 0, width_px, height_px, message);
 }
 
 camera_calibration_t to_wire(const CameraModel& camera, std::int64_t utime) {

@@ -25,6 +25,7 @@ namespace plumb {
 struct ImageFrame {
   std::int64_t capture_us = 0;
   std::int64_t seq = 0;
+  std::int64_t session = 0;  ///< start of the source; 0 when it does not state one
   int width_px = 0;
   int height_px = 0;
   int row_stride_bytes = 0;  ///< 0 when compressed
@@ -37,7 +38,9 @@ struct ImageFrame {
 [[nodiscard]] const char* read_image(std::span<const std::uint8_t> bytes, ImageFrame* frame);
 
 /// Fills `message` with a grey image whose rows have no gaps. Allocates only while `message` grows.
-void to_wire(std::int64_t capture_us, std::int64_t seq, const ImageView& image, image_t* message);
+/// A `session` of 0 is not written.
+void to_wire(std::int64_t capture_us, std::int64_t seq, const ImageView& image, image_t* message,
+             std::int64_t session = 0);
 
 /// Fills `message` with a JPEG of the given size.
 void to_wire_jpeg(std::int64_t capture_us, std::int64_t seq, int width_px, int height_px,

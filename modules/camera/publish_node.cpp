@@ -5,7 +5,7 @@ namespace plumb {
 PublishNode::PublishNode(Process& process, const CameraConfig& config,
                          const std::filesystem::path& folder)
     : process_(process),
-      node_(config, folder, &process.timer()),
+      node_(config, folder, &process.timer(), process.session()),
       image_(process.bus(), kCamera, node_.max_bytes()),
       calibration_(process.bus(), kCameraCalibration) {}
 

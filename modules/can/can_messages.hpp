@@ -10,7 +10,7 @@
 namespace plumb {
 
 /// The version of the layout that PLB_Info sends; +1 with every change of a bit's meaning.
-inline constexpr int kDatabaseVersion = 3;
+inline constexpr int kDatabaseVersion = 4;
 
 /// What makes a message leave, apart from its cycle.
 enum class CanTrigger : std::uint8_t {

@@ -8,8 +8,9 @@
 namespace plumb {
 namespace {
 
-// Reasons travel in 4 bits; all ones means "not available".
-constexpr int kMaxReason = 14;
+// Reasons of the motion travel in 6 bits, those of the plane in 5; all ones means "not available".
+constexpr int kMaxMotionReason = 62;
+constexpr int kMaxReason = 30;
 
 bool motion_is_sound(const ego_motion_t& m) {
   double q2 = 0.0;
@@ -116,7 +117,7 @@ const char* from_wire(const ego_motion_t& message, const Messages& messages, Can
   if (message.status < ego_motion_t::STATUS_OK || message.status > ego_motion_t::STATUS_LOST) {
     return "unknown status";
   }
-  if (message.reason < 0 || message.reason > kMaxReason) return "unknown reason";
+  if (message.reason < 0 || message.reason > kMaxMotionReason) return "unknown reason";
   if (validity_of(message) != CanValidity::kInvalid && !motion_is_sound(message)) {
     return "motion is not a number although its status is valid";
   }

@@ -74,7 +74,7 @@ void Chain::take_image(std::span<const std::uint8_t> bytes) {
   mount_message_ = nullptr;
   // Live, CAMERA reaches plumb-ground before the motion that plumb-vo makes of it.
   const char* ground_refused = ground_.take_image(bytes);
-  const char* vo_refused = vo_.take_image(bytes);
+  const char* vo_refused = vo_.take_image(bytes, frame.capture_us);
   record.vo = vo_.motion();
   if (record.vo != nullptr) {
     vo_timer_.end();

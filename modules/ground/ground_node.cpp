@@ -102,6 +102,8 @@ const char* GroundNode::process(const ImageFrame* frame) {
 void GroundNode::publish(const GroundOutput& output) {
   to_wire(output, &plane_);
   to_wire(output, &ego_);
+  plane_.session = ego_.session = session_;
+  plane_.capture_mono_us = ego_.capture_mono_us = vo_.capture_mono_us;
   probe_->mark("to_wire");
   sink_(plane_, ego_);
 }

@@ -45,6 +45,9 @@ class GroundNode {
   GroundNode(const GroundConfig& config, const DetectionsConfig& detections, StageProbe* probe,
              Sink sink, const GroundModel& model = built_in_ground_model(), Factory make = {});
 
+  /// Names this run of the process in the results.
+  void set_session(std::int64_t session) { session_ = session; }
+
   /// Each returns null when the message was taken, else why it was refused.
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes);
@@ -83,6 +86,7 @@ class GroundNode {
   Factory make_;
   StageProbe* probe_;
   Sink sink_;
+  std::int64_t session_ = 0;
   CameraModel camera_;
   CameraHeight camera_height_;
   std::optional<ImageDecoder> decoder_;

@@ -33,6 +33,7 @@ class GroundProcess {
         detections_(process.bus(), plumb::kDetections, plumb::Input::kOccasional,
                     [this](const plumb::detections_t& m) { return node_.take_detections(m); }),
         image_timeout_(process.loop().timer([this] { node_.expire(); })) {
+    node_.set_session(process.session());
     process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
   }
 

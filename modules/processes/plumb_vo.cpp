@@ -18,6 +18,7 @@ class VoProcess {
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
         camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
                 [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }) {
+    node_.set_session(process.session());
     process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
   }
 
@@ -29,7 +30,7 @@ class VoProcess {
   }
 
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
-    const char* refused = node_.take_image(bytes);
+    const char* refused = node_.take_image(bytes, camera_.arrival_us());
     if (node_.motion() != nullptr) motion_.publish(*node_.motion());
     if (refused == nullptr) process_.timer().end();
     process_.counters().num_dropped = node_.num_lost();

@@ -25,6 +25,7 @@
 #include "core/camera_model.hpp"
 #include "core/fixed_vector.hpp"
 #include "core/image_view.hpp"
+#include "core/numbers.hpp"
 #include "core/se3.hpp"
 #include "core/stage_probe.hpp"
 #include "modules/vo/vo_config.hpp"
@@ -58,12 +59,30 @@ enum class VoReason : std::int8_t {
   kTimeBackwards = 9,
   kNoCalibration = 10,
   kRestarted = 11,
+  kImageRepeated = 12,
+  kImageStale = 13,
+  kImageTorn = 14,
+  kImagePartlyFrozen = 15,
+  kImageMirrored = 16,
+  kImageUpsideDown = 17,
+  kImageUnproven = 18,
+  kTimeStarting = 19,
+  kTimeStalled = 20,
+  kTimeDoubted = 21,
+  kTimeForward = 22,
+  kTimeUnit = 23,
+  kMotionMissing = 24,
+  kImplausible = 25,
 };
 
 struct VoInput {
-  std::int64_t capture_us = 0;  ///< mid-exposure
+  std::int64_t capture_us = 0;  ///< mid-exposure; handed on and not used
   std::int64_t seq = 0;         ///< increases by one per captured frame
   ImageView image;              ///< grey, of the camera's size; it is not used after the call
+  /// [s] Best guess of the time since the previous image, > 0; it is not used for the first one.
+  double interval_s = 0.1;
+  /// Why the image must not be used: then the motion is predicted. kNone for a usable image.
+  VoReason unusable = VoReason::kNone;
 };
 
 /// Pose of an earlier frame as it is refined now.
@@ -83,7 +102,9 @@ struct RoadPoint {
 
 struct VoOutput {
   std::int64_t capture_us = 0;
+  std::int64_t capture_mono_us = 0;  ///< the same on CLOCK_MONOTONIC; 0 while unknown
   std::int64_t seq = 0;
+  std::int64_t session = 0;  ///< of the sender; 0 in a replay
   VoStatus status = VoStatus::kLost;
   VoReason reason = VoReason::kNone;
   std::int32_t scale_epoch = 0;
@@ -92,6 +113,7 @@ struct VoOutput {
   double scale_carry_std = 0.0;
 
   std::int64_t prev_seq = -1;                ///< of the previous image; -1 for the first one
+  double interval_s = kNan;                  ///< from it to this image; NaN while in doubt
   Se3 T_prev_cam;                            ///< [vo] from cam now to cam of the previous image
   Matrix6d cov_prev_cam = Matrix6d::Zero();  ///< of (t, right perturbation of R)
 

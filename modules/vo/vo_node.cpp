@@ -18,7 +18,8 @@ const char* VoNode::take_calibration(const camera_calibration_t& message) {
   return nullptr;
 }
 
-const char* VoNode::take_image(std::span<const std::uint8_t> image_bytes) {
+const char* VoNode::take_image(std::span<const std::uint8_t> image_bytes,
+                               [[maybe_unused]] std::int64_t arrival_us) {
   fresh_ = false;
   probe_->begin();
   ImageFrame frame;

@@ -29,8 +29,14 @@ class VoNode {
   ///               the node
   VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe);
 
+  /// Names this run of the process in the motions.
+  void set_session(std::int64_t session) { session_ = session; }
+
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
-  [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes);
+  /// `arrival_us` is the monotonic time at which the image reached this machine; in a replay it is
+  /// the image's own time stamp.
+  [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes,
+                                       std::int64_t arrival_us);
 
   /// Returns the motion to publish after take_image(), or null when there is none.
   [[nodiscard]] const vo_motion_t* motion() const { return fresh_ ? &motion_ : nullptr; }
@@ -44,6 +50,7 @@ class VoNode {
   VoConfig config_;
   std::uint64_t seed_;
   StageProbe* probe_;
+  std::int64_t session_ = 0;
   CameraModel camera_;
   std::optional<ImageDecoder> decoder_;
   std::optional<VisualOdometry> estimator_;

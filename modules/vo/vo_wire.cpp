@@ -28,6 +28,20 @@ static_assert(same(VoReason::kFramesMissing, vo_motion_t::REASON_FRAMES_MISSING)
 static_assert(same(VoReason::kTimeBackwards, vo_motion_t::REASON_TIME_BACKWARDS));
 static_assert(same(VoReason::kNoCalibration, vo_motion_t::REASON_NO_CALIBRATION));
 static_assert(same(VoReason::kRestarted, vo_motion_t::REASON_RESTARTED));
+static_assert(same(VoReason::kImageRepeated, vo_motion_t::REASON_IMAGE_REPEATED));
+static_assert(same(VoReason::kImageStale, vo_motion_t::REASON_IMAGE_STALE));
+static_assert(same(VoReason::kImageTorn, vo_motion_t::REASON_IMAGE_TORN));
+static_assert(same(VoReason::kImagePartlyFrozen, vo_motion_t::REASON_IMAGE_PARTLY_FROZEN));
+static_assert(same(VoReason::kImageMirrored, vo_motion_t::REASON_IMAGE_MIRRORED));
+static_assert(same(VoReason::kImageUpsideDown, vo_motion_t::REASON_IMAGE_UPSIDE_DOWN));
+static_assert(same(VoReason::kImageUnproven, vo_motion_t::REASON_IMAGE_UNPROVEN));
+static_assert(same(VoReason::kTimeStarting, vo_motion_t::REASON_TIME_STARTING));
+static_assert(same(VoReason::kTimeStalled, vo_motion_t::REASON_TIME_STALLED));
+static_assert(same(VoReason::kTimeDoubted, vo_motion_t::REASON_TIME_DOUBTED));
+static_assert(same(VoReason::kTimeForward, vo_motion_t::REASON_TIME_FORWARD));
+static_assert(same(VoReason::kTimeUnit, vo_motion_t::REASON_TIME_UNIT));
+static_assert(same(VoReason::kMotionMissing, vo_motion_t::REASON_MOTION_MISSING));
+static_assert(same(VoReason::kImplausible, vo_motion_t::REASON_IMPLAUSIBLE));
 static_assert(sizeof(vo_motion_t::road_points_cam) / sizeof(vo_motion_t::road_points_cam[0]) ==
               kMaxRoadPoints);
 static_assert(sizeof(vo_motion_t::window_seq) / sizeof(vo_motion_t::window_seq[0]) ==
@@ -114,11 +128,14 @@ void to_wire(const VoOutput& output, vo_motion_t* message) {
   std::memset(message, 0, sizeof *message);
   message->utime = output.capture_us;
   message->seq = output.seq;
+  message->session = output.session;
+  message->capture_mono_us = output.capture_mono_us;
   message->status = static_cast<std::int8_t>(output.status);
   message->reason = static_cast<std::int8_t>(output.reason);
   message->scale_epoch = output.scale_epoch;
   message->scale_carry_std = output.scale_carry_std;
   message->prev_seq = output.prev_seq;
+  message->interval_s = output.interval_s;
   to_wire(output.T_prev_cam, message->q_prev_cam, message->t_prev_cam);
   to_wire(output.cov_prev_cam, message->cov_prev_cam);
   window_to_wire(output, message);
@@ -135,17 +152,22 @@ void to_wire(const VoOutput& output, vo_motion_t* message) {
 const char* from_wire(const vo_motion_t& message, VoOutput* output) {
   if (message.status < vo_motion_t::STATUS_OK || message.status > vo_motion_t::STATUS_LOST)
     return "VO motion: unknown status";
-  if (message.reason < vo_motion_t::REASON_NONE || message.reason > vo_motion_t::REASON_RESTARTED)
+  if (message.reason < vo_motion_t::REASON_NONE || message.reason > vo_motion_t::REASON_IMPLAUSIBLE)
     return "VO motion: unknown reason";
   if (std::isinf(message.scale_carry_std) || message.scale_carry_std < 0.0)
     return "VO motion: the standard deviation of the scale is negative or infinite";
+  if (!std::isnan(message.interval_s) && !(message.interval_s > 0.0))
+    return "VO motion: the interval between the images is not positive";
   output->capture_us = message.utime;
   output->seq = message.seq;
+  output->session = message.session;
+  output->capture_mono_us = message.capture_mono_us;
   output->status = static_cast<VoStatus>(message.status);
   output->reason = static_cast<VoReason>(message.reason);
   output->scale_epoch = message.scale_epoch;
   output->scale_carry_std = message.scale_carry_std;
   output->prev_seq = message.prev_seq;
+  output->interval_s = message.interval_s;
   if (from_wire(message.q_prev_cam, message.t_prev_cam, &output->T_prev_cam) != nullptr)
     return "VO motion: the relative pose is not a pose";
   if (from_wire(message.cov_prev_cam, &output->cov_prev_cam) != nullptr)

@@ -31,7 +31,7 @@ Bytes image_bytes(std::int64_t seq, int width_px = kWidth) {
 class VoNodeTest : public testing::Test {
  protected:
   std::string take(const Bytes& bytes) {
-    const char* why = node_->take_image(bytes);
+    const char* why = node_->take_image(bytes, 1);
     return why == nullptr ? "" : why;
   }
   NullProbe probe_;
