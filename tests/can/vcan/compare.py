@@ -89,8 +89,9 @@ class Trace:
             mean = (times[-1] - times[0]) / max(len(times) - 1, 1)
             gap = max((b - a for a, b in zip(times, times[1:])), default=0.0)
             print(f'  {name:22} {len(times):6} frames, every {mean * 1e3:7.2f} ms, longest gap {gap * 1e3:7.2f} ms')
-            # A user-mode kernel on a busy machine loses ticks; the exact cycles are tested elsewhere.
-            least = 0.0 if name == MOUNT else 0.4 * cycle  # the mount's messages come faster than its cycle
+            # A user-mode kernel on a busy machine loses ticks. Other tests check the exact cycles.
+            # The mount's messages come faster than its cycle.
+            least = 0.0 if name == MOUNT else 0.4 * cycle
             if cycle > 0.0 and len(times) > 10 and not least < mean < 2.0 * cycle:
                 self.errors.append(f'{name}: sent every {mean * 1e3:.1f} ms, not every {cycle * 1e3:.0f} ms')
 
