@@ -54,8 +54,8 @@ enum PlaneFeature : std::size_t {
                                           double step_ratio);
 /// Only turn and step are used.
 [[nodiscard]] CueFeatures chord_features(double turn_ratio, double step_ratio);
-/// Features of the reported plane. The squares are those of PlaneContext: angles between the dense cue, or
-/// the direction of translation, and the fused plane.
+/// Features of the reported plane. The squares are those of PlaneContext: angles between the dense
+/// cue, or the direction of translation, and the fused plane.
 [[nodiscard]] CueFeatures plane_features(double dense_square, double chord_square,
                                          double turn_ratio, double step_ratio);
 
