@@ -1,14 +1,16 @@
-# Layers, lowest first. A file includes nothing of a later layer, and platform nothing of modules.
+# The list has the layers, lowest first. A file includes nothing of a later layer, and platform
+# includes nothing of modules.
 #
-# Purity: core, and each module's own library, reach no I/O, clock, transport, OpenCV or platform. What may is told by its
-# place (datasets, chain, processes) or its name (*_wire.*, *_node.*, *_source.*).
+# Purity: core and each module's own library reach no I/O, clock, transport, OpenCV or platform.
+# Files that may are known by their place (datasets, chain, processes) or by their name (*_wire.*,
+# *_node.*, *_source.*).
 set(layers core platform
   modules/datasets modules/detections modules/integrity modules/camera modules/detector modules/vo
   modules/ground/types modules/ground/filter modules/ground/covariance modules/ground/cues modules/ground/ego modules/ground
   modules/ground_paper modules/mount modules/objects modules/can modules/chain modules/processes
   tools tests)
 
-# The layer of a path below the root: the longest one that is a prefix of it.
+# Finds the layer of a path below the root, which is the longest one that is a prefix of it.
 function(layer_of path result)
   set(best "")
   foreach(layer ${layers})

@@ -1,5 +1,5 @@
-/// AUTOSAR E2E profile 11, variant 11A: CRC-8 in byte 0, alive counter 0..14 in the low half of
-/// byte 1, the 16-bit data ID enters the CRC and is not sent.
+/// AUTOSAR E2E profile 11, variant 11A. Byte 0 is a CRC-8, and the low half of byte 1 is an alive
+/// counter 0..14. The 16-bit data ID enters the CRC and is not sent.
 ///
 /// CRC:
 ///   Polynomial 0x1D (SAE J1850), start 0, no final xor. It runs over the low byte and the high

@@ -1,6 +1,7 @@
 /// Gates and fuses one frame's observations of every cue in kCueTable.
 ///
-/// Memory  none beyond the filter's.
+/// Memory:
+///   There is no state beyond the filter's.
 #pragma once
 
 #include <array>

@@ -2,11 +2,16 @@
 ///
 /// Pure algorithm: no clock, no I/O, no heap after construction.
 ///
-/// Frames  cam: x right, y down, z forward.  world: cam of the first image.
-///         ground: x forward, y left, z up, on the road under the camera.
-///         T_a_b maps b to a.  Plane: normal_cam . X = height, the normal points DOWN.
-/// Units   [vo] is VO's own unit of length; names that end in _m are metric.
-/// Memory  a ring of image pyramids, sized at construction; nothing grows.
+/// Frames:
+///   cam: x right, y down, z forward.
+///   world: cam of the first image.
+///   ground: x forward, y left, z up, on the road under the camera.
+///   T_a_b maps b to a.
+///   The plane is normal_cam . X = height; the normal points DOWN.
+/// Units:
+///   [vo] is VO's own unit of length; names that end in _m are metric.
+/// Memory:
+///   A ring of image pyramids, sized at construction; nothing grows.
 #pragma once
 
 #include <memory>

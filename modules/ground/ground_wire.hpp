@@ -1,7 +1,7 @@
 /// GroundOutput <-> ground_plane_t and ego_motion_t. Uses no LCM instance.
 ///
-/// Memory  the list of cues in a message is sized once; a message that is used again does not
-///         allocate.
+/// Memory:
+///   The list of cues in a message is sized once; a message that is used again does not allocate.
 #pragma once
 
 #include "modules/ground/types/ground_types.hpp"

@@ -1,7 +1,7 @@
 /// Copies of the newest images that wait for the VO motion of the same frame.
 ///
-/// Memory  kSlots images at construction (30 MB for KITTI). When all are taken, the oldest is
-///         dropped.
+/// Memory:
+///   kSlots images at construction (30 MB for KITTI). When all are taken, the oldest is dropped.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
 /// The plane that GROUND_PLANE reports: the road ahead, from the filter and this frame's cues.
 ///
-/// Frames  cam: x right, y down, z forward; the normal points down.
-/// Units   metres.
+/// Frames:
+///   cam: x right, y down, z forward; the normal points down.
+/// Units:
+///   Metres.
 #pragma once
 
 #include "modules/ground/cues/cue.hpp"

@@ -1,6 +1,7 @@
 /// The vote of the paper, equation (8): the height of the point on which most other points agree.
 ///
-/// Units  the caller's unit of length.
+/// Units:
+///   The caller's unit of length.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 /// Copies of the last images, found by their sequence numbers.
 ///
-/// Memory  kCapacity images, sized at construction.
+/// Memory:
+///   kCapacity images, sized at construction.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 /// The simplex search of Nelder and Mead (1965) for a minimum, without derivatives.
 ///
-/// Memory  N + 1 points in place.
+/// Memory:
+///   N + 1 points in place.
 #pragma once
 
 #include <Eigen/Core>

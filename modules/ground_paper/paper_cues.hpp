@@ -1,7 +1,8 @@
 /// What the published method's cues say about one frame: as reports, and as the observations that
 /// its fusion (5) takes.
 ///
-/// Units  reports in [vo], the fusion in metres.
+/// Units:
+///   Reports in [vo], the fusion in metres.
 #pragma once
 
 #include <span>

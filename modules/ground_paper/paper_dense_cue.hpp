@@ -5,7 +5,12 @@
 /// over (h, n1, n3) by Nelder and Mead's simplex from the expected plane. The confidence in each
 /// component is the width of a Gaussian fitted to 50 samples of f along it, with the others fixed.
 ///
-/// Frames  cam of the newest image.  Units  that of t.  Memory  one RoadRegion.
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   The unit of length is that of t.
+/// Memory:
+///   One RoadRegion.
 #pragma once
 
 #include <Eigen/Core>

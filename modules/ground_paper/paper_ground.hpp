@@ -5,11 +5,14 @@
 /// same EgoMotion as the default's. README.md beside this file lists what the paper leaves open and
 /// what differs.
 ///
-/// Scale   VO's lengths are multiplied by metres_per_vo, which is corrected by s = h / h* after
-///         every frame that measured a height, so that h stays near the camera's true height h*.
-/// Frames  as in ground.hpp.
-/// Memory  twelve images and the road region, at construction. SIFT uses the heap in every frame:
-///         this mode is made for comparison and exempt from the rule that the default keeps.
+/// Scale:
+///   VO's lengths are multiplied by metres_per_vo, which is corrected by s = h / h* after every
+///   frame that measured a height, so that h stays near the camera's true height h*.
+/// Frames:
+///   As in ground.hpp.
+/// Memory:
+///   Twelve images and the road region, at construction. SIFT uses the heap in every frame. This
+///   mode is made for comparison, and is exempt from the rule that the default keeps.
 #pragma once
 
 #include <memory>

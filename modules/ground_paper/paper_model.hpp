@@ -1,7 +1,8 @@
 /// The models C of Song and Chandraker (CVPR 2014, Algorithm 1): variances of the cues' errors by
 /// their confidences.
 ///
-/// Units  heights and widths in metres; confidences as the cues give them.
+/// Units:
+///   Heights and widths in metres; confidences as the cues give them.
 #pragma once
 
 #include "modules/ground/covariance/built_in_numbers.hpp"

@@ -1,6 +1,7 @@
 /// The plane and the scale that the published method reports, from its filter.
 ///
-/// Units  metres.
+/// Units:
+///   Metres.
 #pragma once
 
 #include "modules/ground/ego/ego_motion.hpp"

@@ -1,7 +1,12 @@
 /// Triangulated-points cue of the paper: features of the road region are triangulated between this
 /// image and an older one, and vote for the height over a road of the calibrated normal.
 ///
-/// Frames  cam of the newest image.  Units  that of t.  Memory  kMaxVoters heights in place.
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   The unit of length is that of t.
+/// Memory:
+///   kMaxVoters heights in place.
 #pragma once
 
 #include <Eigen/Core>

@@ -5,7 +5,10 @@
 ///   n' = R^T n,  h' = h - n . t.
 /// The paper prints A = [R t; 0 1]^T, which is this for a normal that points up.
 ///
-/// Frames  cam of the newest image.  Units  that of t.
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   The unit of length is that of t.
 #pragma once
 
 #include <Eigen/Core>

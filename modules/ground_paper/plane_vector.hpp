@@ -1,6 +1,7 @@
 /// The observation vector of the paper, z = (n1, n3, h), and its plane.
 ///
-/// Frames  cam; n = (n1, n2, n3) points down, n . X = h, n2 = sqrt(1 - n1^2 - n3^2).
+/// Frames:
+///   cam: n = (n1, n2, n3) points down, with n . X = h and n2 = sqrt(1 - n1^2 - n3^2).
 #pragma once
 
 #include <Eigen/Core>

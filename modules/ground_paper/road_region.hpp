@@ -5,8 +5,12 @@
 /// the older one: G = R + t n^T / h with (R, t) = T_old_cam and n pointing down. Both are compared
 /// with bilinear interpolation. The radial term that rectification left is applied on both sides.
 ///
-/// Frames  cam of the newest image.  Units  that of t; grey levels.
-/// Memory  rays of the region, sized at construction.
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   The unit of length is that of t; grey levels.
+/// Memory:
+///   Rays of the region, sized at construction.
 #pragma once
 
 #include <Eigen/Core>

@@ -4,7 +4,8 @@
 /// heap after construction: OpenCV's detector sizes its scale space and its lists for every image.
 /// It sets OpenCV to one thread, so that results repeat.
 ///
-/// Frames  img: full image, (0,0) is the centre of the upper left pixel.
+/// Frames:
+///   img: full image, (0,0) is the centre of the upper left pixel.
 #pragma once
 
 #include <Eigen/Core>

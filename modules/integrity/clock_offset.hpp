@@ -7,11 +7,13 @@
 /// like a late message: ages are then too large, which is the safe side, until the caller reports
 /// the new time base by another `ClockEpoch`, or the window has passed.
 ///
-/// What it cannot tell  The transport's smallest delay is part of the offset: ages are too small by
-///                      it. A backlog that is read first of all looks like a delay of the
-///                      transport, until one message is on time.
-/// Units   [us]; `receive_us` and `now_us` are of one monotonic clock and never 0 or less.
-/// Memory  kNumBuckets minima, in place.
+/// What it cannot tell:
+///   The transport's smallest delay is part of the offset: ages are too small by it. A backlog that
+///   is read first of all looks like a delay of the transport, until one message is on time.
+/// Units:
+///   [us]; `receive_us` and `now_us` are of one monotonic clock and never 0 or less.
+/// Memory:
+///   kNumBuckets minima, in place.
 #pragma once
 
 #include <array>

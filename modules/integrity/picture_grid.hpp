@@ -4,8 +4,10 @@
 /// kGridRows rows of blocks and up to kMaxGridColumns columns; it is centred, so that a mirrored
 /// image has the mirrored grid.
 ///
-/// Units    grey levels [grey]; pixels of the full image [px].
-/// Memory   the sampled rows of one image per PictureSample, allocated at construction.
+/// Units:
+///   Grey levels [grey]; pixels of the full image [px].
+/// Memory:
+///   The sampled rows of one image per PictureSample, allocated at construction.
 #pragma once
 
 #include <array>

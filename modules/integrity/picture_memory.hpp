@@ -25,11 +25,14 @@
 /// After a flip, all images are reported as flipped until the picture flips back or reset() is
 /// called.
 ///
-/// How to use  Only images whose verdict is_fresh() may be used for motion, for standstill or as
-///             reference of the next motion. Their own stamps are right; see `steps_since_fresh`.
-/// Units       grey levels, pixels, seconds.
-/// Memory      sampled rows of memory_images + 1 images, allocated at construction: 1.0 MB at
-///             1242x375 with 8 images.
+/// How to use:
+///   Only images whose verdict is_fresh() may be used for motion, for standstill or as reference of
+///   the next motion. Their own stamps are right; see `steps_since_fresh`.
+/// Units:
+///   Grey levels, pixels, seconds.
+/// Memory:
+///   Sampled rows of memory_images + 1 images, allocated at construction: 1.0 MB at 1242x375 with 8
+///   images.
 #pragma once
 
 #include <array>

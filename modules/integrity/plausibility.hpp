@@ -6,9 +6,12 @@
 /// be sent as "not available". Each becomes valid again after `recover_images` good ones, at the
 /// latest `reestablish_s` after it has become steady.
 ///
-/// Frames   ground: x forward, y left, z up.
-/// Units    SI.
-/// Memory   a few numbers.
+/// Frames:
+///   ground: x forward, y left, z up.
+/// Units:
+///   SI.
+/// Memory:
+///   A few numbers.
 #pragma once
 
 #include <array>

@@ -8,8 +8,10 @@
 /// `reestablish_s` (the first refused one does not count); then `was_reestablished` is set, and
 /// whoever integrates the signal must reset. Nothing is refused for ever.
 ///
-/// Units    of the signal; seconds.
-/// Memory   a few numbers.
+/// Units:
+///   Those of the signal; seconds.
+/// Memory:
+///   A few numbers.
 #pragma once
 
 #include <cstdint>

@@ -12,15 +12,19 @@
 ///   - A change of the rate from a jump of the clock, in the first image that shows it.
 ///   - A change of the interval that is within the tolerance, on a source whose interval varies.
 ///
-/// How to use  `interval_s` is the time from image `reference_seq` to this one. Use it only when
-///             is_valid(), and only for a motion that begins at that image.
-/// Reset       `reset_count` grows by one whenever the base changes its clock or its numbers, and
-///             never otherwise. It begins at 0 in each process. A receiver that must notice the
-///             restart of the sender, too, compares the pair (session, reset_count): `session` is
-///             the sender's start time in microseconds, which its process shell takes from the
-///             real-time clock once and passes in; 0 means unknown. A pure library never makes one.
-/// Units       [us] for stamps, [s] for intervals.
-/// Memory      a few numbers, in place.
+/// How to use:
+///   `interval_s` is the time from image `reference_seq` to this one. Use it only when is_valid(),
+///   and only for a motion that begins at that image.
+/// Reset:
+///   `reset_count` grows by one whenever the base changes its clock or its numbers, and never
+///   otherwise. It begins at 0 in each process. A receiver that must notice the restart of the
+///   sender, too, compares the pair (session, reset_count): `session` is the sender's start time in
+///   microseconds, which its process shell takes from the real-time clock once and passes in; 0
+///   means unknown. A pure library never makes one.
+/// Units:
+///   [us] for stamps, [s] for intervals.
+/// Memory:
+///   A few numbers, in place.
 #pragma once
 
 #include <array>

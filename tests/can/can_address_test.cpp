@@ -1,4 +1,4 @@
-// Identifiers, data identifiers and cycles: what a configuration gives, and what is refused.
+// Tests which identifiers, data identifiers and cycles a configuration gives, and what is refused.
 #include "modules/can/can_address.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(CanAddress, TwoCamerasOnOneBusShareNothing) {
 
 TEST(CanAddress, AFrameOfTheOtherCameraIsNotTakenForOnesOwn) {
   CanConfig second;
-  second.base_data_id = 0x3C00;  // the identifiers are forgotten
+  second.base_data_id = 0x3C00;  // somebody forgot to set base_id
   const Messages theirs = can_messages(second);
   for (std::size_t i = 0; i < kNumMessages; ++i) {
     const CanFrame frame = encode(theirs[i], MessageValues{}, {});

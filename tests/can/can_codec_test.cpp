@@ -35,7 +35,7 @@ void for_each_signal(Check check) {
   }
 }
 
-/// Raw value of a signal after the whole message was encoded with `physical` in it.
+/// Returns the raw value of a signal in a message that was encoded with `physical` in it.
 std::uint64_t sent_raw(const Message& message, std::size_t i, double physical) {
   MessageValues values = no_values();
   values[i] = physical;
@@ -134,7 +134,7 @@ TEST(CanCodec, ATableWhoseSignalsShareABitOrLeaveTheMessageDoesNotFit) {
       std::array<Signal, 2>{{{"A", {0, 8}, "", kNone, ""}, {"B", {7, 8}, "", kNone, ""}}}));
   static_assert(!fit_message(std::array<Signal, 1>{{{"A", {57, 8}, "", kNone, ""}}}));
   static_assert(!fit_message(std::array<Signal, 1>{{{"A", {0, 33}, "", kNone, ""}}}));
-  // All ones is "not available": two bits name three values.
+  // All ones means "not available", so that two bits leave three values.
   static_assert(fit_message(std::array<Signal, 1>{{{"A", {0, 2}, "", kNone, "", kThree}}}));
   static_assert(!fit_message(std::array<Signal, 1>{{{"A", {0, 2}, "", kNone, "", kFour}}}));
 }

@@ -1,4 +1,5 @@
-// When the mount's status reaches the bus, when it is not available, which MOUNT is refused.
+// Tests when the mount's status reaches the bus, when it is not available, and which MOUNT messages
+// are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,7 +83,7 @@ TEST_F(GateMount, StaleIsNotAvailableWithinOneCycle) {
   std::int64_t absent_us = 0;
   for (int i = 0; i < 500; ++i) {
     sink_.sent.clear();
-    give(i);  // images go on: the mount has an age of its own
+    give(i);  // images go on, but the mount has an age of its own
     tick();
     const std::vector<Reading> now = sent();
     if (now.empty()) continue;

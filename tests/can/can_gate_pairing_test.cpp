@@ -1,4 +1,4 @@
-// How the two halves of a camera frame find each other.
+// Tests how the two halves of a camera frame find each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST_F(GatePairing, ALateHalfFindsItsFrameInTheQueue) {
   give(2);
   hear(make_plane(3));
   now_us_ += 150'000;
-  tick();  // frame 1 is sent, frame 3 is closed behind frame 2
+  tick();  // frame 1 is sent; frame 3 is closed behind frame 2
   hear(make_ego(3));
   hear(make_ego(3));
   tick(2);

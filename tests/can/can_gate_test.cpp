@@ -1,4 +1,4 @@
-// What the gate sends when: cycles, bursts, queue and clock.
+// Tests what the gate sends, and when: cycles, bursts, queue and clock.
 #include <gtest/gtest.h>
 
 #include <algorithm>

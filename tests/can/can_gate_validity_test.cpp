@@ -1,4 +1,4 @@
-// When the gate calls values valid, degraded, invalid and not available.
+// Tests when the gate calls values valid, degraded, invalid and not available.
 #include <gtest/gtest.h>
 
 #include <cmath>

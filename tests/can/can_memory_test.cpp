@@ -1,4 +1,5 @@
-/// The way of a message onto the bus takes no memory. A program of its own: it replaces malloc.
+/// Checks that no message allocates memory on its way to the bus. This is a separate program
+/// because it replaces malloc.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -47,7 +48,7 @@ TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
   EXPECT_GT(output.num_rejected(), 0);
   EXPECT_GT(sink.num_frames, 300'000);
 
-  const std::string text(100, static_cast<char>(sink.num_frames));  // the counter works
+  const std::string text(100, static_cast<char>(sink.num_frames));  // shows that the counter works
   EXPECT_GT(test::g_num_mallocs, before);
 }
 

@@ -1,4 +1,4 @@
-// Lists of objects: what reaches the bus, in which order, and what a receiver reads out of it.
+// Tests which objects of a list reach the bus, in which order, and what a receiver reads.
 #include "modules/can/can_object_gate.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ class ObjectGate : public testing::Test {
     ASSERT_EQ(from_wire(message, test::default_messages(), &objects), nullptr);
     gate_.on_objects(objects, now_us_);
   }
-  /// What the next tick sends.
+  /// Returns the frames that the next tick sends.
   std::vector<CanFrame> tick() {
     sink_.frames.clear();
     gate_.tick(now_us_, sink_);
@@ -175,14 +175,14 @@ TEST(CanObjectsWire, KeepsTheNearestAndCountsTheRest) {
   std::vector<object_t> objects;
   for (int i = 0; i < 20; ++i) objects.push_back(object_at(5.0 + (i * 7) % 20, 0.0, i));
   objects[3].status = object_t::STATUS_NOT_LOCALISED;
-  objects[3].position_ground_m[0] = kNan;  // nothing else of it holds
+  objects[3].position_ground_m[0] = kNan;  // no other value of it is valid
   CanObjects list;
   ASSERT_EQ(from_wire(list_of(9, objects, 2), test::default_messages(), &list), nullptr);
   ASSERT_EQ(list.counts.num_objects, kMaxCanObjects);
   EXPECT_EQ(list.counts.num_left_out, 20 - 8 + 2);
   double last = 0.0;
   for (const SourceValues& object : list.objects) {
-    const double x_m = object[0];  // of the position's signals the first
+    const double x_m = object[0];  // the first of the position's signals
     EXPECT_GE(x_m, last);
     last = x_m;
   }

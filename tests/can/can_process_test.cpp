@@ -1,4 +1,5 @@
-// plumb-can, seen from outside: what it refuses, and what it sends for what it hears on LCM.
+// Tests plumb-can from outside: what it refuses, and what it sends for the messages that it
+// receives.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ void sleep_s(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// Until the program writes its first lines: then it listens.
+/// Waits for the program's first lines, which it writes when it listens.
 void wait_for_content(const std::string& path) {
   for (int i = 0; i < 1000 && std::filesystem::file_size(path) == 0; ++i) sleep_s(0.01);
 }
@@ -58,7 +59,7 @@ TEST(CanProgram, PrintsTheDatabaseOfItsConfiguration) {
   EXPECT_NE(can.output().find("BO_ 960 PLB2_EgoMotion: 8 PLB2\n"), std::string::npos);
 }
 
-/// One live plumb-can in a network of this test's own.
+/// One live plumb-can in a network of its own.
 class CanProgramLive : public ::testing::Test {
  protected:
   static constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
@@ -104,7 +105,7 @@ TEST_F(CanProgramLive, SendsWhatItHearsThenNotAvailableAndStopsCleanly) {
     publish(seq, seq);
     sleep_s(0.02);
   }
-  // What does not decode, and what decodes but breaks its contract.
+  // One message does not decode. The other one decodes but breaks its contract.
   const std::vector<std::uint8_t> rubbish{1, 2, 3};
   bus_->publish(kEgoMotion, rubbish);
   publish(20, std::nan(""));
@@ -112,7 +113,7 @@ TEST_F(CanProgramLive, SendsWhatItHearsThenNotAvailableAndStopsCleanly) {
   can.signal(SIGTERM);
   EXPECT_EQ(can.wait(), 0) << can.output();
 
-  std::vector<double> speeds;  // of successive camera frames
+  std::vector<double> speeds;  // one per camera frame, in order
   const std::vector<test::Reading> motions = read(trace.path(), test::default_messages()[0]);
   for (const test::Reading& v : motions) {
     if (std::isnan(v["EgoMotion_Validity"])) continue;

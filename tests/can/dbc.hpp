@@ -1,4 +1,4 @@
-/// A small DBC reader of its own, so that the tests can compare the text with the C++ tables.
+/// A small reader of DBC files, with which the tests compare the text with the C++ tables.
 #pragma once
 
 #include <map>

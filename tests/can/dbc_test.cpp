@@ -1,6 +1,6 @@
-// config/plumbline.dbc is what a receiver is built from. The file is compared with what the program
-// prints and, through a reader of the tests' own, with the tables of signals and the constants of
-// the messages.
+// Receivers are built from config/plumbline.dbc. These tests compare the file with what the program
+// prints and, through their own reader, with the tables of signals and the constants of the
+// messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// The names that a signal has in the DBC: one for each index of an object.
+/// The names that a signal has in the DBC. A signal of an object has one for each index.
 std::vector<std::string> dbc_names(const Signal& signal) {
   std::vector<std::string> names;
   const std::string name = signal.name;

@@ -1,4 +1,4 @@
-/// The gate under test, a clock, and what it has sent.
+/// A fixture with the gate under test, a clock, and the frames that were sent.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ inline ground_plane_t make_plane(std::int64_t seq, std::int8_t status = ground_p
   return m;
 }
 
-/// What a message says to the bus; a broken one fails the test.
+/// Converts a message for the bus. A broken one fails the test.
 template <typename Message>
 CanSample sample_of(const Message& message) {
   CanSample sample;
@@ -79,7 +79,7 @@ class GateFixture : public ::testing::Test {
       now_us_ += CanGate::kTickUs;
     }
   }
-  /// Ego motion's frame counters in the order of transmission, repeats removed.
+  /// Ego motion's frame counters in the order of transmission, without repeats.
   std::vector<int> frames_sent(const char* message = "EgoMotion") {
     std::vector<int> result;
     for (const Reading& v : sink_.all(message)) {

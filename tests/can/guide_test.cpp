@@ -1,4 +1,5 @@
-// docs/can.md: its sample of a receiver works, and its figures are those of the tables.
+// Checks that the receiver in docs/can.md works, and that the document's figures are those of the
+// tables.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// Frames read back: values by the names of signals.
+/// Reads frames back, as values by the names of signals.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ inline const Message& message_named(const std::string& name) {
   throw std::logic_error("no message " + name);
 }
 
-/// A sample's value of a signal, NaN for "not available".
+/// The value of a signal in a sample; NaN for "not available".
 inline double value_of(const CanSample& sample, const std::string& signal) {
   for (const Message& message : default_messages()) {
     for (std::size_t i = 0; i < message.signals.size(); ++i) {
@@ -53,7 +53,7 @@ class Reading {
   [[nodiscard]] double frame_counter() const { return ending_with("_FrameCtr"); }
   [[nodiscard]] double validity() const { return ending_with("_Validity"); }
 
-  /// False when the frame is not one of this message's.
+  /// Reads the values of a frame. Returns false when the frame is not one of this message's.
   bool read(const Message& message, const CanFrame& frame) {
     MessageValues values;
     if (!decode(message, frame, &values)) return false;

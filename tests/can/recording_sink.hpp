@@ -1,4 +1,4 @@
-/// Keeps what was sent and reads it back.
+/// Keeps the frames that were sent and reads them back.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ class RecordingSink final : public CanSink {
     }
     return result;
   }
-  /// All messages of the newest moment in one.
+  /// The newest frame of every message, merged into one reading.
   [[nodiscard]] Reading newest() const {
     Reading result;
     for (const Message& message : default_messages()) {

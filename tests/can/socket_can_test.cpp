@@ -239,7 +239,8 @@ TEST(SocketCanKernel, AnInterfaceThatIsNotThereIsRefusedInWords) {
   }
 }
 
-/// Reads frames 0x123 from a real interface, CAN FD included; others may be busy on it.
+/// Opens a socket that reads the frames 0x123 of a real interface, which others may use as well.
+/// CAN FD is included.
 int open_reader(const std::string& interface) {
   const int fd = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
   const int on = 1;

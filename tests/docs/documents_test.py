@@ -1,14 +1,15 @@
-"""Holds that what the documents name exists, and that a reader finds the way.
+"""Checks that what the documents name exists, and that a reader finds the way.
 
 Usage: documents_test.py ROOT BIN
 
-Checked in every Markdown file of the checkout:
+It checks in every Markdown file of the checkout:
 - programs, their subcommands and options (by --help), scripts and their options,
 - settings (by --print-config), also in TOML examples, messages, fields, constants and channels,
 - CAN frames, identifiers and signals (by the DBC),
 - paths, file names and identifiers in code, links and headings.
-Checked as a whole: the limits of README.md and of every document, whether a chain of links leads from
-README.md to each, the table of processes against their sources, and the diagram of docs/architecture.md.
+It checks for the documents as a whole: the limits of README.md and of every document, whether a
+chain of links leads from README.md to each, the table of processes against their sources, and the
+diagram of docs/architecture.md.
 
 Names that belong to others, and those that a recipe invents, stand in foreign_names.txt. The self-test
 comes first: it puts one wrong name of each kind into a text and expects it to be found.

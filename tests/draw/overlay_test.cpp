@@ -1,4 +1,4 @@
-/// Objects drawn onto frames: where their edges lie, and what is left out.
+/// Tests how objects are drawn onto frames: where their edges lie, and what is left out.
 #include "tools/run/draw/overlay.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ CameraModel kitti_camera() {
   return {kWidth_px, kHeight_px, 721.5, 721.5, 609.6, 172.9, 0.0256, -0.0076, 1.65};
 }
 
-/// What the object changes in the picture: 255 where it does.
+/// Returns a mask that is 255 where drawing the object changes the picture.
 cv::Mat drawn(const ObjectFigure& object) {
   FrameFigures figures;
   figures.plane = RoadPlane{Eigen::Vector3d::UnitY(), 1.65};
@@ -31,7 +31,7 @@ cv::Mat drawn(const ObjectFigure& object) {
 }
 
 TEST(Overlay, DrawsTheBoxWhereTheObjectStands) {
-  // Rear at 18 m, from 0.8 m left to 0.8 m right of the axis, 1.5 m high.
+  // The rear is at 18 m. It reaches from 0.8 m left to 0.8 m right of the axis and is 1.5 m high.
   const cv::Mat changed = drawn({{20.0, 0.0}, 0.0, {4.0, 1.6, 1.5}, true, ""});
   int left = kWidth_px, right = 0, top = kHeight_px, bottom = 0;
   for (int v = 0; v < kHeight_px; ++v) {
@@ -48,8 +48,8 @@ TEST(Overlay, DrawsTheBoxWhereTheObjectStands) {
 }
 
 TEST(Overlay, CutsAnObjectBesideTheCameraAtTheBorder) {
-  // From 0.6 to 4.6 m ahead, 1.7 to 3.3 m left: some of it is visible, on the left and below the
-  // horizon.
+  // The object is 0.6 to 4.6 m ahead and 1.7 to 3.3 m to the left. A part of it is visible on the
+  // left, below the horizon.
   const cv::Mat changed = drawn({{2.6, 2.5}, 0.0, {4.0, 1.6, 1.5}, false, "car 3 m"});
   EXPECT_GT(cv::countNonZero(changed(cv::Rect(0, 0, 600, kHeight_px))), 50);
   EXPECT_EQ(cv::countNonZero(changed(cv::Rect(600, 0, kWidth_px - 600, kHeight_px))), 0);

@@ -1,5 +1,5 @@
-/// The fault matrix itself: what is injected is what its row says, and the judge tells right from
-/// wrong.
+/// Tests the fault matrix itself: each row injects what it says, and the judge tells right results
+/// from wrong ones.
 
 #include <gtest/gtest.h>
 

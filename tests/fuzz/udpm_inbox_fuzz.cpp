@@ -1,4 +1,5 @@
-// Fuzz target: datagrams of any content, from several senders, into the inbox of an endpoint.
+// A fuzz target that hands datagrams of any content, from several senders, to the inbox of an
+// endpoint.
 //
 // The input is a list of orders. An order either hands on raw bytes as a datagram, or describes a
 // fragment in few bytes, so that mutations reach the rules of reassembly without guessing headers.

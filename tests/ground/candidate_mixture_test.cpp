@@ -16,7 +16,7 @@ Box box_of(const Eigen::Vector4d& b) {
   return {b(0) - 0.5 * b(2), b(1) - b(3), b(0) + 0.5 * b(2), b(1)};
 }
 
-/// Correlated as a detector's candidates are: a higher box is also a taller one.
+/// A Gaussian that is correlated as a detector's candidates are: a higher box is also a taller one.
 MixtureComponent truth(const Eigen::Vector4d& mean, double amplitude, double size) {
   MixtureComponent result;
   result.amplitude = amplitude;
@@ -32,7 +32,8 @@ double score(const MixtureComponent& m, const Eigen::Vector4d& b) {
   return m.amplitude * std::exp(-0.5 * e.dot(m.cov.inverse() * e));
 }
 
-/// Boxes scattered about `m` as wide as its Gaussian, scored by all of `mixture`.
+/// Adds boxes that scatter about `m` a little wider than its Gaussian. Their scores are the sum
+/// over all of `mixture`.
 void add_samples(const std::vector<MixtureComponent>& mixture, const MixtureComponent& m, int count,
                  double noise, std::mt19937* random, CandidateMixture* fit) {
   std::normal_distribution<double> normal;
@@ -83,7 +84,7 @@ TEST(CandidateMixture, RecoversTwoOverlappingCarsUnderNoise) {
   EXPECT_EQ(fit.nearest_component(box_of(far.mean)), 1u);
 }
 
-TEST(CandidateMixture, WiderCandidatesGiveALargerBeliefParameter) {
+TEST(CandidateMixture, WiderCandidatesGiveALargerConfidenceParameter) {
   std::mt19937 random(3);
   double last = 0.0;
   for (const double size : {2.0, 4.0, 8.0}) {

@@ -1,4 +1,4 @@
-/// The loop over the table of cues: order, gate, and what it reports.
+/// Tests the loop over the table of cues: its order, its gate and its reports.
 #include "modules/ground/cue_fuser.hpp"
 
 #include <gtest/gtest.h>

@@ -20,8 +20,8 @@ CameraModel camera_read_in(double readout_s) {
   return camera;
 }
 
-/// Three views of one road: now, one step and three steps ago. Rows are read within `readout_s`,
-/// and the cue is told `told_s`.
+/// Three views of one road: the newest one, one step earlier and three steps earlier. The rows are
+/// read within `readout_s`, while the cue is given `told_s`.
 struct Views {
   explicit Views(const test::Shutter& now_shutter, const test::Shutter& old_shutter = {},
                  double turn_left_rad = 0.0, double readout_s = 0.0, double told_s = 0.0)
@@ -97,8 +97,8 @@ TEST(DenseAlignment, FindsTheRenderedPlane) {
 }
 
 TEST(DenseAlignment, TakesNothingForRoadThatTravelsWithTheCamera) {
-  // The back of a truck fills the view: the newest image is the oldest one again, whatever VO says
-  // about the way.
+  // The back of a truck fills the view. The newest image equals the oldest one, whatever motion VO
+  // reports.
   Views views({});
   const Pyramid* back = views.pairs[views.pairs.size() - 1].old_image;
   DenseAlignment cue(views.ring.camera(), views.ring.num_levels());
@@ -153,7 +153,7 @@ TEST(DenseAlignment, WithstandsExposureBlurAndNoise) {
 }
 
 TEST(DenseAlignment, RefusesAFeaturelessRoadsTilt) {
-  // Nothing but noise: whatever comes out must not be believed.
+  // The road shows nothing but noise, so no result may claim to be certain.
   Views views({.gain = 0.0, .bias = 120.0, .noise_grey = 2.0},
               {.gain = 0.0, .bias = 120.0, .noise_grey = 2.0});
   DenseAlignment cue(views.ring.camera(), views.ring.num_levels());
@@ -162,11 +162,11 @@ TEST(DenseAlignment, RefusesAFeaturelessRoadsTilt) {
 }
 
 TEST(PlaneWarp, GradientOfTheCostMatchesCentralDifferences) {
-  // The sums' b is minus half the gradient of sum w r^2 with weights held; with a huge sigma they
-  // are all one.
-  Views views({.blur_px = 4}, {.gain = 0.95, .bias = 4.0, .blur_px = 4});  // smooth: slopes exist
+  // The vector b of the sums is minus half the gradient of sum w r^2 at constant weights. With a
+  // huge sigma, all weights are one.
+  Views views({.blur_px = 4}, {.gain = 0.95, .bias = 4.0, .blur_px = 4});  // for smooth slopes
   CameraModel camera = views.ring.camera();
-  camera.residual_k1 = 0.0;  // its slope is left out of J on purpose
+  camera.residual_k1 = 0.0;  // J omits its slope on purpose
   const LevelCamera level = camera_of_level(camera, 0);
   RoadPixels pixels;
   const Eigen::Vector3d q = views.truth.normal_cam * kMetresPerVo / (1.02 * views.truth.height_m);
@@ -187,8 +187,8 @@ TEST(PlaneWarp, GradientOfTheCostMatchesCentralDifferences) {
   };
   const auto slope = test::central_difference<1, kNumPairParams>(cost, at, 1e-3);
   for (int i = 0; i < kNumPairParams; ++i) {
-    // Central differences of pixels are a little flatter than the bilinear surface; H sets the
-    // scale.
+    // Central differences of pixels are a little flatter than the bilinear surface, so the
+    // tolerance is relative to a scale, which H gives.
     const double scale = std::sqrt(sums.H(i, i) * sums.weighted_square);
     EXPECT_NEAR(-0.5 * slope(0, i), sums.b(i), 0.05 * std::abs(sums.b(i)) + 0.02 * scale)
         << "parameter " << i;

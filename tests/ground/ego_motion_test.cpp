@@ -183,7 +183,7 @@ TEST(EgoMotion, ScaleErrorAddsUpAlongThePathNotLikeNoise) {
   Rig rig(test::Drive{}, 60);
   rig.first_scale_frame = 2;
   for (int k = 0; k < 60; ++k) rig.step(k);
-  // 1 % of the way, because the same scale error was in every step.
+  // The error is 1 % of the distance, because every step had the same scale error.
   EXPECT_NEAR(std::sqrt(rig.out.cov_world_cam(2, 2)), 0.01 * rig.out.distance_m,
               0.002 * rig.out.distance_m);
 }

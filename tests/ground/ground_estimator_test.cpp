@@ -12,7 +12,7 @@
 namespace plumb {
 namespace {
 
-/// Images and VO of one rendered drive, rendered once for all tests of this program.
+/// Images and VO's results of one drive, which is rendered once for all tests of this program.
 struct Footage {
   explicit Footage(int num_frames) {
     drive.pitch_amplitude_rad = 0.006;
@@ -90,7 +90,8 @@ TEST(GroundEstimator, IntegratedPathEndsWhereTheDriveEnds) {
   EXPECT_LT((pose.t - truth.t).norm(), 0.015 * truth.t.norm());
 }
 
-/// rms error of n3 from frame 10 on, of a run without images whose objects are off by `bias`.
+/// Returns the rms error of n3 from frame 10 on in a run without images from frame 6 on. The n3 of
+/// the objects is off by `bias`.
 double pitch_error(bool with_objects, double bias, CueStatus* last_status) {
   Rehearsal run;
   double sum = 0.0;
@@ -150,7 +151,8 @@ TEST(GroundEstimator, WorksOnPointsWhenImagesAreMissing) {
   }
 }
 
-// At high speed VO may track nothing nearby: the road's picture alone has to start the scale.
+// At high speed VO may track nothing nearby. Then the image of the road alone has to start the
+// scale.
 TEST(GroundEstimator, StartsFromTheRoadAloneWhenNoPointsLieOnIt) {
   Rehearsal run;
   for (int k = 0; k < 36; ++k) {
@@ -340,7 +342,7 @@ TEST(GroundEstimator, SettingsOfTheFilterTakeEffect) {
   EXPECT_TRUE(std::isnan(log_scale_std(strict))) << "no cue is good enough to start";
 }
 
-/// Names of the stages in order.
+/// Records the names of the stages in order.
 class NamesProbe final : public StageProbe {
  public:
   void begin() override { names_ = "begin"; }

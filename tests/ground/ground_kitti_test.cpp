@@ -1,4 +1,5 @@
-/// VO and ground on real drives against lidar planes and poses. Skipped where the drives are not.
+/// Tests VO and ground on real drives against lidar planes and poses. Without the drives, the tests
+/// are skipped.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -96,7 +97,8 @@ struct Errors {
   }
 };
 
-/// Smallest eigenvalue of the correlation matrix: below zero no distribution has this covariance.
+/// Smallest eigenvalue of the correlation matrix. When it is negative, no distribution has this
+/// covariance.
 double least_correlation(const Matrix6d& cov) {
   const Vector6d scale = cov.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix6d correlation = scale.asDiagonal() * cov * scale.asDiagonal();

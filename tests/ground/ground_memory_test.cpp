@@ -1,5 +1,5 @@
-/// The ground library takes no memory after construction, and little before. A program of its own:
-/// it replaces malloc.
+/// Checks that the ground library allocates nothing after construction, and little during it. This
+/// is a separate program because it replaces malloc.
 #include <gtest/gtest.h>
 
 #include "modules/ground/ground.hpp"
@@ -22,7 +22,7 @@ TEST(GroundMemory, NoFrameAllocates) {
     images.push_back(test::render(camera, poses[k], {}, 1));
     test::script_vo(poses, static_cast<int>(k), {}, &vo[k]);
   }
-  vo[15].scale_epoch = 1;  // from here on in another unit
+  vo[15].scale_epoch = 1;  // another unit from here on
   for (std::size_t k = 15; k < vo.size(); ++k) vo[k].scale_epoch = 1;
   vo[20].status = VoStatus::kStandstill;
   vo[21].status = VoStatus::kCoasting;
@@ -31,7 +31,7 @@ TEST(GroundMemory, NoFrameAllocates) {
   const auto before_construction = test::g_num_mallocs.load();
   GroundEstimator estimator(GroundConfig{}, camera);
   NullProbe probe;
-  ASSERT_GT(test::g_num_mallocs.load(), before_construction);  // the counter works
+  ASSERT_GT(test::g_num_mallocs.load(), before_construction);  // shows that the counter works
   const auto before = test::g_num_mallocs.load();
   for (std::size_t k = 0; k < poses.size(); ++k) {
     (void)estimator.update({&vo[k], images[k].view()}, probe);
@@ -45,7 +45,7 @@ TEST(GroundMemory, OwnsLessThan16MegabytesAtFullSize) {
   const std::size_t before = test::heap_bytes();
   const GroundEstimator estimator(GroundConfig{}, camera);
   const std::size_t owned = test::heap_bytes() - before;
-  EXPECT_GT(owned, std::size_t{1} << 20U);  // the counter works
+  EXPECT_GT(owned, std::size_t{1} << 20U);  // shows that the counter works
   EXPECT_LT(owned, std::size_t{16} << 20U);
 }
 

@@ -1,5 +1,5 @@
-/// Model files: the shipped one is the built-in one; what does not fit is refused. Features,
-/// bounds, covariances.
+/// Tests model files (the shipped file equals the built-in model, and a file that does not fit is
+/// refused), features, bounds and covariances.
 #include "modules/chain/model_file_source.hpp"
 #include "plumb_paths.hpp"
 
@@ -30,7 +30,7 @@ std::map<std::string, double> numbers_of(TrainedModels models) {
   return numbers;
 }
 
-/// What load_models says about the shipped file with `from` replaced by `to`.
+/// Returns what load_models() says about the shipped file with `from` replaced by `to`.
 std::string refusal(const std::string& from, const std::string& to) {
   std::string text = test::read_text(kShipped);
   const std::size_t at = text.find(from);
@@ -113,7 +113,7 @@ TEST(LearnedCovariance, IsMadeOfTheModelsVariances) {
   };
   EXPECT_NEAR(cov(0, 0), var(model.dense_n1, pixel(0, 0)), 1e-15);
   EXPECT_NEAR(cov(1, 1), var(model.dense_n3, pixel(1, 1)), 1e-15);
-  // Once the normal is known, what is left of ln h is the model's.
+  // Once the normal is known, the variance of ln h is the model's.
   const double given = 1.0 / cov.inverse()(2, 2);
   EXPECT_NEAR(given, var(model.dense_height, 1.0 / state_information(dense)(2, 2)), 1e-9);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cov).eigenvalues().minCoeff(), 0.0);
@@ -139,7 +139,7 @@ TEST(LearnedCovariance, DoubtsAPlaneWithLargeResiduals) {
   EXPECT_NEAR(agree.pitch_rad2, 1e-6, 1e-12);
   EXPECT_NEAR(agree.roll_rad2, 1e-6, 1e-12);
   EXPECT_NEAR(agree.ln_height, 1e-6, 1e-12);
-  context.dense_n3_square = 8.0 * 9e-6;  // ln(1 + 8) on the slope of one: nine times
+  context.dense_n3_square = 8.0 * 9e-6;  // ln(1 + 8) at a slope of one is a factor of nine
   EXPECT_NEAR(learned.plane(context).pitch_rad2, 9e-6, 1e-11);
   EXPECT_NEAR(learned.plane(context).ln_height, 9e-6, 1e-11);
   EXPECT_EQ(learned.plane(context).roll_rad2, agree.roll_rad2);

@@ -32,7 +32,7 @@ TEST(HeightFilter, ABoxGivesThePitchWithTheHeightsDeviation) {
 TEST(HeightFilter, AHeightMeasuredUnderAKnownPitchTellsThePitchLater) {
   HeightFilter filter(kPrior);
   const double true_height = 0.4 + 0.08;
-  // Near: strong J; the pitch is known from elsewhere.
+  // The object is near, so J is large. The pitch is known from elsewhere.
   for (int frame = 0; frame < 5; ++frame) {
     filter.predict(0.1);
     const auto place = filter.place_of(7, 1, 0.4, kCarVar, 100 * frame);
@@ -40,7 +40,7 @@ TEST(HeightFilter, AHeightMeasuredUnderAKnownPitchTellsThePitchLater) {
     filter.update_pitch(0.003, 1e-7);
     filter.update_box(place.slot, l, 0.003 + 0.2 * (true_height - l), -0.2, 1e-6);
   }
-  // Far: weak J; only the box measures the pitch.
+  // The object is far, so J is small. Only the box measures the pitch.
   filter.predict(0.1);
   const auto place = filter.place_of(7, 1, 0.4, kCarVar, 600);
   ASSERT_FALSE(place.is_new);

@@ -9,7 +9,7 @@
 namespace plumb {
 namespace {
 
-/// Four candidates-bearing neighbours overlap, so that the largest mixture is fitted too.
+/// Four neighbours with candidates overlap, so that the largest mixture is fitted, too.
 DetectionFrame crowded(int k) {
   std::vector<test::SceneObject> cars = test::six_cars();
   for (int i = 0; i < 4; ++i) cars.push_back({10 + i, 25.0 + 0.2 * i, 5.0 + 0.3 * i});

@@ -94,7 +94,7 @@ TEST(ObjectsPitch, NamesABoxThatContradictsTheOthers) {
 }
 
 TEST(ObjectsPitch, DistrustsATrackThatDisagreesFrameAfterFrame) {
-  // A car on a ramp 1.2 m above the road, too little in one frame to be an outlier.
+  // A car stands on a ramp 1.2 m above the road, which is too little for an outlier in one frame.
   ObjectsPitch cue(DetectionsConfig{}, kSceneCamera);
   BoxVerdict last = BoxVerdict::kUsed;
   for (int k = 0; k < 15; ++k) {
@@ -109,7 +109,8 @@ TEST(ObjectsPitch, DistrustsATrackThatDisagreesFrameAfterFrame) {
 }
 
 TEST(ObjectsPitch, KeepsTheHeightsThatWereMeasuredUnderAKnownPitch) {
-  // Cars 10 % taller than their class lead astray, until another cue has shown how tall they are.
+  // Cars that are 10 % taller than their class bias the pitch until another cue has shown how tall
+  // they are.
   std::vector<test::SceneObject> cars = six_cars();
   for (test::SceneObject& car : cars) car.height_m = 1.68;
   ObjectsPitch cue(DetectionsConfig{}, kSceneCamera);
@@ -150,7 +151,7 @@ TEST(ObjectsPitch, SpreadCandidatesWidenTheDeviation) {
       EXPECT_TRUE(d.candidates.push_back(candidate));
     }
     DetectionsConfig config;
-    config.car.std_m = 0.02;  // else the height's deviation hides the edges'
+    config.car.std_m = 0.02;  // else the height's standard deviation hides the edges'
     ObjectsPitch cue(config, kSceneCamera);
     const ObjectsPitchOutput& output = cue.update(input_of(frame));
     EXPECT_GT(output.confidence_px2[0], 0.0);

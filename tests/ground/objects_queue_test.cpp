@@ -12,7 +12,7 @@
 namespace plumb {
 namespace {
 
-constexpr double kBelow_rad = 0.8 * kDegree;  ///< what the camera looks down
+constexpr double kBelow_rad = 0.8 * kDegree;  ///< how far the camera looks down
 
 const CameraHeight kHeight{GroundConfig{}.camera_height_m, 0.0};
 
@@ -36,7 +36,7 @@ class ObjectsQueueTest : public testing::Test {
     return queue_->take(frame);
   }
 
-  /// Image `seq`, for which the camera has pitched by `nose_down_rad` since the one before.
+  /// Processes image `seq`. Since the image before, the camera has pitched by `nose_down_rad`.
   std::span<const ObjectsMeasurement> image(std::int64_t seq, double nose_down_rad = 0.0,
                                             VoStatus status = VoStatus::kOk) {
     VoOutput vo;

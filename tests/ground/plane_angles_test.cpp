@@ -15,7 +15,7 @@ Eigen::Vector3d normal_of(double pitch_rad, double roll_rad) {
 TEST(PlaneAngles, NoseDownIsPositivePitch) {
   // A camera that looks down onto the road has part of "down" ahead of it.
   EXPECT_NEAR(pitch_of(Eigen::Vector3d(0.0, std::cos(0.1), std::sin(0.1))), 0.1, 1e-15);
-  // Road points ahead then rise in the image: the ray to the horizon lies above the axis.
+  // Road points ahead then rise in the image, and the ray to the horizon lies above the axis.
   const Eigen::Vector3d n = normal_of(0.1, 0.0);
   const Eigen::Vector3d horizon(0.0, -n.z(), n.y());
   EXPECT_NEAR(n.dot(horizon), 0.0, 1e-15);

@@ -1,4 +1,4 @@
-/// The filter's one update against hand-calculated values, its measurement functions, and the
+/// Tests the filter's update against values calculated by hand, its measurement functions, and the
 /// effect of its settings.
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(PlaneFilterFuse, GivesInnovationAndTestRatioOfAPlane) {
 TEST(PlaneFilterFuse, RejectsBeyondTheGateAndChangesNothing) {
   PlaneFilter filter = hand_calculated();
   const Eigen::Matrix3d before = filter.cov();
-  // e^2 = 0.09^2 / 4e-4 = 20.25 against 16.
+  // e^2 = 0.09^2 / 4e-4 = 20.25 exceeds the gate of 16.
   const FuseResult result = filter.fuse(pitch_of_road(0.09, 3e-4));
   EXPECT_FALSE(result.accepted);
   EXPECT_NEAR(result.test_ratio, 20.25 / 16.0, 1e-12);

@@ -30,7 +30,7 @@ Eigen::Matrix3d plane_cov() {
   return Eigen::Vector3d(0.007 * 0.007, 0.007 * 0.007, 0.03 * 0.03).asDiagonal();
 }
 
-/// One frame of driving straight, with a plane measured as `state`.
+/// Filters one frame of driving straight, in which the plane is measured as `state`.
 void drive_frame(PlaneFilter* filter, const Eigen::Vector3d& state) {
   filter->predict(Eigen::Matrix3d::Identity(), kStepRatio);
   const bool used = filter->fuse(plane_at(state, plane_cov())).accepted;
@@ -70,7 +70,7 @@ TEST(PlaneFilter, PredictionIsAsUncertainAsItsJacobianSays) {
   const Eigen::Matrix3d P = F * filter.cov() * F.transpose();
   filter.predict(R_prev_cam, kStepRatio);
   const Eigen::Matrix3d added = filter.cov() - P;
-  EXPECT_NEAR(added(0, 1), 0.0, 1e-10);  // what is added is noise, independent per component
+  EXPECT_NEAR(added(0, 1), 0.0, 1e-10);  // the added noise is independent per component
   EXPECT_GT(added(0, 0), 0.0);
   EXPECT_NEAR(added(0, 0), added(1, 1), 1e-10);
 }
@@ -94,14 +94,14 @@ TEST(PlaneFilter, ShrugsOffASingleWildPlane) {
 TEST(PlaneFilter, ReacquiresAfterALockOut) {
   PlaneFilter filter = started(0.0);
   for (int k = 0; k < 60; ++k) drive_frame(&filter, filter.state());
-  // WHEN VO's unit jumps by 30 % without saying so
+  // WHEN VO's unit jumps by 30 % and VO does not report it,
   const Eigen::Vector3d truth = filter.state() + Eigen::Vector3d(0.0, 0.0, 0.26);
   int frames = 0;
   while (std::abs(filter.state()(2) - truth(2)) > 0.03 && frames < 100) {
     drive_frame(&filter, truth);
     ++frames;
   }
-  // THEN the gate first holds, then opens
+  // THEN the gate rejects the new height at first and accepts it later.
   EXPECT_GE(frames, 10);
   EXPECT_LE(frames, 30);
 }
@@ -167,7 +167,8 @@ PlaneFilter started_on_bends() {
   return filter;
 }
 
-/// One frame straight on and level, under a road ahead that leaves the car's by `bend`.
+/// Filters one frame of driving straight on a level road towards a plane ahead that differs by
+/// `bend`.
 void drive_towards_bend(PlaneFilter* filter, double bend) {
   filter->predict(Eigen::Matrix3d::Identity(), kStepRatio);
   filter->fuse(path_along(Eigen::Vector3d::UnitZ(), 0.003 * 0.003));
@@ -182,7 +183,7 @@ TEST(PlaneFilter, TellsTheRoadAheadFromTheRoadUnderTheCar) {
   EXPECT_NEAR(filter.ahead()(1), 0.02, 0.002);
   EXPECT_NEAR(filter.ahead()(2), 0.04, 0.005);
   EXPECT_NEAR(filter.state()(1), 0.0, 0.002);
-  EXPECT_NEAR(filter.state()(2), 0.0, 0.005);  // scale hangs on this one
+  EXPECT_NEAR(filter.state()(2), 0.0, 0.005);  // the scale depends on this plane
 }
 
 TEST(PlaneFilter, WithoutBendsBothPlanesAreOne) {

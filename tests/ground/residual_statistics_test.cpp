@@ -1,5 +1,5 @@
-/// Residuals between the cues and the fused plane, over the distance travelled and through frames
-/// without a cue.
+/// Tests the residuals between the cues and the fused plane, over the distance travelled and
+/// through frames without a cue.
 #include "modules/ground/covariance/residual_statistics.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace {
 
 const Eigen::Vector3d kState(0.01, 0.02, 0.1);
 
-/// A dense cue tilted by (n1, n3) from kState and a path along the fused plane, over half a camera
-/// height.
+/// A frame of half a camera height in which the dense cue is tilted by (n1, n3) from kState and the
+/// path follows the fused plane.
 struct FrameApart {
   FrameApart(double n1, double n3) {
     const Eigen::Vector3d state = kState + Eigen::Vector3d(n1, n3, 0.0);

@@ -6,7 +6,7 @@
 namespace plumb::test {
 namespace {
 
-/// Repeatable value in [-1, 1] of a grid point.
+/// Repeatable random value of a grid point, in [-1, 1].
 double grid_value(int x, int z, std::uint32_t octave) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 374761393U +
                     static_cast<std::uint32_t>(z) * 668265263U + octave * 2246822519U;
@@ -56,7 +56,7 @@ std::vector<double> box_blur(const std::vector<double>& from, int width, int hei
   return to;
 }
 
-/// Mean grey value of the pixel's view, before exposure.
+/// Mean grey value of what a pixel sees, before exposure.
 double radiance(const CameraModel& camera, const Se3& T_world_cam, int u, int v) {
   const Eigen::Vector3d ray = T_world_cam.R * camera.unproject(Eigen::Vector2d(u, v));
   const double range = (kRoadHeight - T_world_cam.t.y()) / ray.y();
@@ -118,10 +118,11 @@ std::vector<Se3> Drive::poses(int num_frames) const {
   std::vector<Se3> out;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   for (int k = 0; k < num_frames; ++k) {
-    const double heading = turn_left_rad * k;  // left is about -y
+    const double heading = turn_left_rad * k;  // a left turn is about -y
     const double pitch = mount_pitch_rad + pitch_amplitude_rad * std::sin(0.7 * k);
     const Eigen::Matrix3d R_world_car = exp_so3(Eigen::Vector3d(0.0, -heading, 0.0));
-    // Nose down turns z towards y: about -x. Right side down turns x towards y: about z.
+    // Nose down turns z towards y, which is a rotation about -x. Right side down turns x towards y,
+    // which is a rotation about z.
     const Eigen::Matrix3d R_car_cam =
         exp_so3(Eigen::Vector3d(-pitch, 0, 0)) * exp_so3(Eigen::Vector3d(0, 0, mount_roll_rad));
     out.push_back({R_world_car * R_car_cam, position});

@@ -1,9 +1,11 @@
-/// A flat textured road, seen exactly: images and VO results of a camera whose motion and plane are
-/// known.
+/// Renders a flat textured road: images and VO results of a camera whose motion and plane are known
+/// exactly.
 ///
-/// Frames  world: x right, y down, z forward; the road is the plane y = kRoadHeight below the
-///         world's origin.
-/// Units   metres; the simulated VO divides lengths by `metres_per_vo`.
+/// Frames:
+///   world: x right, y down, z forward; the road is the plane y = kRoadHeight below the world's
+///   origin.
+/// Units:
+///   Metres; the simulated VO divides lengths by `metres_per_vo`.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,9 +29,8 @@ struct Shutter {
   double gain = 1.0;
   double bias = 0.0;
   double noise_grey = 0.0;
-  int blur_px = 0;  ///< box of 2n+1 pixels, both ways
-  Se3 step = {};  ///< motion on to the next image, 0.1 s later: matters when the camera's rows are
-                  ///< read one by one
+  int blur_px = 0;  ///< box of 2n+1 pixels in both directions
+  Se3 step = {};    ///< motion to the next image, 0.1 s later; used with a rolling shutter
 };
 
 class GreyImage {
@@ -57,7 +58,7 @@ struct TruePlane {
 };
 [[nodiscard]] TruePlane plane_in(const Se3& T_world_cam);
 
-/// Car path: constant speed and yaw rate (left positive), sinusoidal pitch.
+/// A car's path with constant speed and yaw rate (left positive) and sinusoidal pitch.
 struct Drive {
   double step_m = 0.8;
   double turn_left_rad = 0.0;  ///< per frame
@@ -67,7 +68,7 @@ struct Drive {
   [[nodiscard]] std::vector<Se3> poses(int num_frames) const;
 };
 
-/// What a perfect VO says about frame `k` of `poses`; `noise` scatters the road points' depth.
+/// Settings of a perfect VO, except that the depth of its road points scatters.
 struct VoScript {
   double metres_per_vo = 1.3;
   double point_rel_std = 0.02;
@@ -75,6 +76,7 @@ struct VoScript {
   int num_outliers = 20;
   int first_ok_frame = 2;  ///< earlier frames are initialising
 };
+/// Fills `vo` with its result for frame `k` of `poses`.
 void script_vo(const std::vector<Se3>& poses, int k, const VoScript& script, VoOutput* vo);
 
 }  // namespace plumb::test

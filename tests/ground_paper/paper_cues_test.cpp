@@ -87,7 +87,7 @@ TEST(PaperDenseCue, FindsTheRenderedPlaneFromTheCalibratedOne) {
   }
 }
 
-TEST(PaperDenseCue, BelievesLessInABlurredRoad) {
+TEST(PaperDenseCue, IsLessConfidentOnABlurredRoad) {
   const Views views{test::Drive{}};
   PaperDenseCue cue(views.camera, views.box, kRho);
   const auto width = [&](int blur_px) {
@@ -125,7 +125,7 @@ TEST(Triangulation, FindsDepthAndHowFarTheMatchMisses) {
   EXPECT_LT((exact.p_cam - p_cam).norm(), 1e-6);
   EXPECT_LT(exact.miss_px, 1e-6);
 
-  // Along the epipolar line depth gives way, across it nothing can.
+  // An error along the epipolar line changes the depth. One across the line remains as the miss.
   const Eigen::Vector2d along =
       (match.old - views.camera.project(views.T_old_cam * (1.1 * p_cam))).normalized();
   match.old += 3.0 * Eigen::Vector2d(-along.y(), along.x());
@@ -158,7 +158,7 @@ TEST(PaperPointsCue, FindsTheHeightOfARenderedRoadBySift) {
   EXPECT_NEAR(3.0 * cue.search_height(matches, T, views.truth.height_m), views.truth.height_m,
               0.05 * views.truth.height_m);
 
-  // The calibrated pitch is all it knows of the pitch: half a degree of it is 4 % of height.
+  // The cue assumes the calibrated pitch. Half a degree of pitch is 4 % of height.
   const Eigen::Vector3d pitched = exp_so3({0.009, 0.0, 0.0}) * views.truth.normal_cam;
   PaperPointsCue misled(views.camera, pitched, kVoteMu);
   EXPECT_GT(std::abs(misled.measure(matches, views.T_old_cam).height / seen.height - 1.0), 0.02);

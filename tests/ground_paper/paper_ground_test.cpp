@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kNumFrames = 24;
 
-/// Images and VO of one rendered drive, rendered once for all tests of this program.
+/// Images and VO's results of one drive, which is rendered once for all tests of this program.
 struct Footage {
   Footage() {
     drive.pitch_amplitude_rad = 0.004;
@@ -182,7 +182,7 @@ TEST(GroundFactory, MakesTheConfiguredAlgorithm) {
   EXPECT_NE(dynamic_cast<PaperGround*>(paper.get()), nullptr);
 }
 
-/// What loading `text` says.
+/// Returns the error of loading `text`, or "" when it is accepted.
 std::string refusal(const std::string& text) {
   const test::TempFile file(".toml", text);
   PlumbConfig config;

@@ -23,7 +23,8 @@ TEST(CueFusion, WeighsByInformationAndLeavesOutWhatACueDoesNotSee) {
   EXPECT_DOUBLE_EQ(fused.var(kN3), 1e-4);
 }
 
-// (5) followed by (3)-(4) is the least-squares estimate of all cues and the prior together.
+// Equation (5) followed by (3)-(4) is the least-squares estimate of all cues and the prior
+// together.
 TEST(PlaneKalman, EqualsTheBatchSolutionOfAllCues) {
   PlaneKalman filter({0.001, 0.01});
   filter.start({0.0, 1.0, 0.0}, 1.65, 4e-4, 0.04);
@@ -44,8 +45,8 @@ TEST(PlaneKalman, EqualsTheBatchSolutionOfAllCues) {
   EXPECT_NEAR(filter.normal().norm(), 1.0, 1e-12);
 }
 
-// The signs that the paper mixes: a plane that stays in the world while the camera drives, pitches
-// and turns over it.
+// The paper mixes the signs of its equations. This test has a plane that stays in the world while
+// the camera drives, pitches and turns over it.
 TEST(PlaneKalman, PredictsTheRoadThatARenderedCarDrivesOn) {
   test::Drive drive;
   drive.pitch_amplitude_rad = 0.02;
@@ -63,7 +64,7 @@ TEST(PlaneKalman, PredictsTheRoadThatARenderedCarDrivesOn) {
 }
 
 TEST(PlaneKalman, CarriesATiltIntoTheHeightThatFollowsFromIt) {
-  // Driving 1 m towards a road that rises by 0.02: 2 cm nearer.
+  // After 1 m towards a road that rises by 0.02, the camera is 2 cm nearer to it.
   PlaneKalman filter({0.0, 0.0});
   filter.start(Eigen::Vector3d(0.0, std::sqrt(1.0 - 4e-4), 0.02), 1.65, 1e-4, 0.0);
   filter.predict({Eigen::Matrix3d::Identity(), {0.0, 0.0, 1.0}});
@@ -80,7 +81,7 @@ TEST(PlaneKalman, KeepsRelativeDeviationsInAnotherUnit) {
   EXPECT_NEAR(filter.cov()(3, 3) / (1.5 * 1.5), 0.0324 / (1.8 * 1.8), 1e-12);
 }
 
-TEST(LinearVariance, StaysInItsRangeAndDistrustsWhatHasNoBelief) {
+TEST(LinearVariance, StaysInItsRangeAndDistrustsWhatHasNoConfidence) {
   const LinearVariance line{0.01, 0.1, 0.005, 0.05, 0.02};
   EXPECT_DOUBLE_EQ(line.of(0.1), 0.02);
   EXPECT_DOUBLE_EQ(line.of(-1.0), 0.005);

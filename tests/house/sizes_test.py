@@ -27,7 +27,7 @@ _NOT_FUNCTION = re.compile(r"\b(namespace|class|struct|enum|union)\b[^()]*$|=\s*
 
 
 def without_literals(text):
-    """Blanks comments and literals; line breaks stay."""
+    """Replaces comments and literals by blanks. Line breaks stay."""
     def blank(match):
         return re.sub(r"[^\n]", " ", match.group(0))
     text = _TOKENS.sub(blank, text)
@@ -35,7 +35,7 @@ def without_literals(text):
 
 
 def function_lengths(text):
-    """Lines of each function of a C++ source: [(first line, number of lines)]."""
+    """Finds the functions of a C++ source. Returns [(first line, number of lines)]."""
     code = without_literals(text)
     found, stack, head_start, is_function, after_function = [], [], 0, False, False
     for match in re.finditer(r"[{};]", code):
@@ -43,7 +43,8 @@ def function_lengths(text):
         if kind == "{":
             inside = any(is_function for is_function, _ in stack)
             head = code[head_start:at]
-            # After "member_{value}" in a constructor's initialisers more of them, or the body, may follow.
+            # After "member_{value}" in a constructor's initialisers, more of them or the body may
+            # follow.
             goes_on = after_function and bool(re.match(r"\s*(,.*)?$", head, re.S))
             is_function = not inside and (goes_on or (
                 not _NOT_FUNCTION.search(head) and bool(_FUNCTION_HEAD.search(head))))
@@ -59,7 +60,7 @@ def function_lengths(text):
 
 
 def check(root):
-    """Messages about what is too long, and a line of figures."""
+    """Returns messages about what is too long, and a line of figures."""
     problems, files, functions = [], [], []
     for folder in FOLDERS:
         for path in sorted((root / folder).rglob("*.?pp")):
@@ -80,7 +81,7 @@ def check(root):
 
 
 def self_test():
-    """The parser sees a long function and is not misled by braces in literals or by lambdas."""
+    """Checks that the parser sees a long function and that braces in literals do not mislead it."""
     body = "\n".join("  g('{', \"}\");  // {" for _ in range(70))
     source = f"namespace a {{\nvoid f(int x) const {{\n{body}\n  auto l = [](int y) {{ return y; }};\n}}\nstruct S {{ int a{{0}}; }};\n}}\n"
     assert function_lengths(source) == [(2, 73)], function_lengths(source)

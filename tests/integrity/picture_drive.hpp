@@ -1,4 +1,4 @@
-/// Runs images through a PictureMemory and faults into images.
+/// Runs images through a PictureMemory and puts faults into images.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace plumb::test {
 
 using Pictures = std::vector<cv::Mat>;
 
-/// One letter per image: . fresh, R repeated, F frozen, S stale, T torn, P partly frozen,
-/// M mirrored, U upside down, ? unproven.
+/// Returns one letter per image: . is fresh, R repeated, F frozen, S stale, T torn, P partly
+/// frozen, M mirrored, U upside down, ? unproven.
 inline std::string verdicts(const Pictures& pictures, double interval_s = 0.1,
                             std::vector<PictureVerdict>* all = nullptr) {
   PictureMemory memory(pictures[0].cols, pictures[0].rows, {});
@@ -26,7 +26,7 @@ inline std::string verdicts(const Pictures& pictures, double interval_s = 0.1,
   return letters;
 }
 
-/// `pictures` with picture i replaced by change(pictures, i).
+/// Returns `pictures` with picture i replaced by change(pictures, i).
 inline Pictures changed(const Pictures& pictures,
                         const std::function<cv::Mat(const Pictures&, std::size_t)>& change) {
   Pictures result;
@@ -34,7 +34,7 @@ inline Pictures changed(const Pictures& pictures,
   return result;
 }
 
-/// Each picture `times` times, with noise of its own.
+/// Returns each picture `times` times, every time with its own noise.
 inline Pictures multiplied(const Pictures& pictures, int times, double noise_grey) {
   Pictures result;
   int seed = 0;
@@ -43,7 +43,7 @@ inline Pictures multiplied(const Pictures& pictures, int times, double noise_gre
   return result;
 }
 
-/// Rows [from, to) of `source` in a copy of `target`, as shares of the height.
+/// Returns a copy of `target` with the rows [from, to) of `source`, which are shares of the height.
 inline cv::Mat with_rows(const cv::Mat& target, const cv::Mat& source, double from, double to) {
   cv::Mat result = target.clone();
   const cv::Range rows(static_cast<int>(from * target.rows), static_cast<int>(to * target.rows));

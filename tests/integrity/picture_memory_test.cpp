@@ -20,14 +20,14 @@ constexpr std::size_t kAt = 15;
 
 class PictureMemoryTest : public testing::TestWithParam<int> {
  protected:
-  /// Steady drive, sensor noise of 1.5 grey levels.
+  /// Makes pictures of a steady drive. `noise` is that of the sensor in grey levels.
   [[nodiscard]] Pictures drive(int count = 40, double step_m = 0.9, double noise = 1.5) const {
     Pictures pictures;
     for (int i = 0; i < count; ++i)
       pictures.push_back(with_noise(scene_.show(i * step_m), noise, i + 1000 * GetParam()));
     return pictures;
   }
-  /// Drives, brakes evenly, stands, drives off.
+  /// Makes pictures of a car that drives, brakes evenly, stands and drives off.
   [[nodiscard]] Pictures stop_and_go(double decel_m_s2, double interval_s, double noise) const {
     Pictures pictures;
     double s = 0.0;
@@ -47,7 +47,7 @@ class PictureMemoryTest : public testing::TestWithParam<int> {
   static void expect_only(const std::string& letters, const std::string& expected) {
     EXPECT_EQ(letters.find_first_not_of(expected), std::string::npos) << letters;
   }
-  /// `before` fresh pictures, then none that is fresh.
+  /// Expects fresh pictures before `at + late`, and from there on only the verdicts of `expected`.
   static void expect_fault_from(const std::string& letters, std::size_t at,
                                 const std::string& expected, std::size_t late = 0) {
     EXPECT_EQ(letters.find_first_not_of('.'), at + late) << letters;
@@ -94,8 +94,8 @@ TEST_P(PictureMemoryTest, BrakingStandingAndStartingIsFresh) {
   }
 }
 
-/// A codec that skips blocks repeats a standing scene bit for bit: no noise proves life, the stop
-/// that was seen does.
+/// A codec that skips blocks repeats a standing scene bit for bit. There is no noise to prove that
+/// the pictures are fresh, but the stop that was seen proves it.
 TEST_P(PictureMemoryTest, SkippedBlocksOfAVideoAfterASeenStopAreFresh) {
   Pictures pictures;
   double s = 0.0;
@@ -199,7 +199,7 @@ TEST_P(PictureMemoryTest, AFrozenRegionIsFoundAndMarked) {
 TEST_P(PictureMemoryTest, ATornPictureIsFoundOnce) {
   for (const int back : {1, 2, 3, 6}) {
     for (const auto& [from, to] : {std::pair{0.5, 1.0}, {0.3, 0.6}, {0.7, 1.0}}) {
-      // An old band in the middle of the picture may pass unseen: picture_memory.hpp says so.
+      // An old band in the middle of the picture may pass unseen, as picture_memory.hpp says.
       if (back > 2 && to < 1.0) continue;
       const std::string letters = verdicts(changed(drive(), [&](const Pictures& p, std::size_t i) {
         return i == kAt ? with_rows(p[i], p[i - static_cast<std::size_t>(back)], from, to) : p[i];
@@ -264,7 +264,8 @@ TEST_P(PictureMemoryTest, ResetForgetsEverything) {
   }
 }
 
-/// A repetition is the less likely the more the picture moves; nothing of it depends on the size.
+/// The faster the picture moves, the less likely is a repetition. The size of the picture has no
+/// influence on this.
 TEST_P(PictureMemoryTest, OtherSizesWork) {
   for (const cv::Size size : {cv::Size(1920, 1080), cv::Size(320, 200), cv::Size(1226, 370)}) {
     const auto resized = [&](const cv::Mat& p) {

@@ -1,5 +1,5 @@
-/// Pictures of a drive without a renderer: a random texture, flat at the top like a sky, of which
-/// the camera sees a window that grows smaller as the car drives on.
+/// Makes pictures of a drive without a renderer. The camera sees a window of a random texture,
+/// which is flat at the top like a sky. The window grows smaller as the car drives on.
 #pragma once
 
 #include <cmath>
@@ -42,7 +42,7 @@ class PictureScene {
     cv::Mat layer(world_.size(), CV_32F);
     world_ = cv::Scalar(120.0);
     for (const double size_px : {2.0, 6.0, 20.0, 60.0}) {
-      // 11 grey levels of fine texture, 5 of coarse, as near road and houses have.
+      // Fine texture has 11 grey levels and coarse texture 5, as a near road and houses have.
       cv::randn(layer, 0.0, (size_px < 10.0 ? 40.0 : 18.0) * size_px);
       cv::GaussianBlur(layer, layer, {}, size_px);
       world_ += layer;
@@ -56,8 +56,8 @@ class PictureScene {
     }
   }
 
-  /// The picture after `driven_m`, the camera nodded down by `nod_px`. What is seen lies 10 m ahead
-  /// and gives way to other scenery every 5 m.
+  /// Returns the picture after `driven_m`, with the camera nodded down by `nod_px`. The visible
+  /// scenery is 10 m ahead and changes every 5 m.
   [[nodiscard]] cv::Mat show(double driven_m, double nod_px = 0.0) const {
     const double zoom = std::exp(std::fmod(driven_m, 5.0) / 10.0);
     const double place_px = 173.0 * std::floor(driven_m / 5.0);

@@ -175,7 +175,7 @@ TEST_F(PlausibilityTest, ASpikeCostsTheSpikeAndTheImagesOfRecovery) {
   }
 }
 
-/// The values after a refused one agree with it, and with it only.
+/// The values that follow a refused one agree with it alone.
 TEST_F(PlausibilityTest, AgreeingWithARefusedValueIsNotEnough) {
   for (const double wrong : {57.0, 38.0, 0.0, 25.0}) {
     judge_.reset();
@@ -217,7 +217,7 @@ TEST_F(PlausibilityTest, AfterADropOutTheValueOfBeforeIsBelievedAgain) {
   EXPECT_EQ(speed(12.0), Reason::kNone);
 }
 
-/// Random faults of every signal, then a sound drive: all is valid again within 1.5 s.
+/// After random faults of every signal, a sound drive is valid again within 1.5 s.
 TEST_F(PlausibilityTest, NothingIsLostForEver) {
   std::mt19937_64 random(31);
   std::uniform_real_distribution<double> any(-100.0, 100.0);
@@ -242,7 +242,7 @@ TEST_F(PlausibilityTest, NothingIsLostForEver) {
   }
 }
 
-/// Whatever comes in, what is valid keeps the limits, also from one valid value to the next.
+/// Whatever the input is, valid values keep the limits, also from one valid value to the next.
 TEST_F(PlausibilityTest, WhatIsValidKeepsTheLimits) {
   std::mt19937_64 random(32);
   std::normal_distribution<double> noise(0.0, 6.0);

@@ -1,4 +1,4 @@
-/// Sequences of stamps and numbers, sound and faulty.
+/// Makes sound and faulty sequences of stamps and numbers.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace plumb::test {
 
-/// `count` images from 10 s on, numbered from `first_seq`.
+/// Makes `count` images from 10 s on, numbered from `first_seq`.
 inline std::vector<TimeStampedImage> regular(int count, double interval_s,
                                              std::int64_t first_seq = 0) {
   std::vector<TimeStampedImage> stream;
@@ -26,7 +26,7 @@ inline std::vector<TimeVerdict> judge_all(const std::vector<TimeStampedImage>& s
   return verdicts;
 }
 
-/// Messages without any order, some of them repeated, from up to three sessions.
+/// Makes messages without any order, some of them repeated, from up to three sessions.
 inline std::vector<TimeStampedImage> garbage(std::mt19937_64& random, int count) {
   std::vector<TimeStampedImage> stream;
   for (int i = 0; i < count; ++i) {
@@ -47,7 +47,7 @@ inline std::vector<TimeStampedImage> garbage(std::mt19937_64& random, int count)
   return stream;
 }
 
-/// Some images lost, repeated, swapped, or with a stamp that is off; the last 20 are sound.
+/// Loses, repeats and swaps some images, and gives some a wrong stamp. The last 20 stay sound.
 inline std::vector<TimeStampedImage> with_faults(std::vector<TimeStampedImage> stream,
                                                  std::mt19937_64& random) {
   for (int fault = 0; fault < 12; ++fault) {

@@ -20,12 +20,12 @@ int count(const std::vector<TimeVerdict>& verdicts, TimeReason reason) {
                                         [&](const TimeVerdict& v) { return v.reason == reason; }));
 }
 
-/// The last image's verdict, after which the base must be sound.
+/// Expects that the last image is valid again.
 void expect_recovered(const std::vector<TimeVerdict>& verdicts) {
   EXPECT_TRUE(verdicts.back().is_valid()) << describe(verdicts.back().reason);
 }
 
-/// Every interval that is called valid is the true one of the two images' numbers.
+/// Expects that every interval that is called valid is the true one between the two images.
 void expect_true_intervals(const Stream& stream, const std::vector<TimeVerdict>& verdicts,
                            double interval_s, double tolerance_s) {
   for (std::size_t i = 0; i < stream.size(); ++i) {
@@ -108,7 +108,7 @@ TEST(TimeBase, OneBadStampCostsThatImageAlone) {
   }
 }
 
-/// All stamps from one image on are moved: a new base after three images, and a reset.
+/// All stamps from one image on are moved. After three images there is a new base, and a reset.
 TEST(TimeBase, AJumpOfTheClockMakesANewBase) {
   for (const double off_s : {3600.0, 0.5, 0.2, 0.05, -0.05, -0.08, -5.0, -3600.0}) {
     Stream stream = regular(40, 0.1);
@@ -168,7 +168,7 @@ TEST(TimeBase, ASlowlyVaryingRatePasses) {
   EXPECT_EQ(verdicts.back().reset_count, 0);
 }
 
-/// Milliseconds, nanoseconds and seconds in a field of microseconds.
+/// The field for microseconds holds milliseconds, nanoseconds or seconds.
 TEST(TimeBase, AWrongUnitIsNamed) {
   for (const double factor : {1e-3, 1e3}) {
     Stream from_start = regular(40, 0.1);
@@ -314,7 +314,7 @@ TEST(TimeBase, ExtremeNumbersAreNotFatal) {
   expect_recovered(verdicts);
 }
 
-/// Whatever came before: the third of consecutive good images is valid, and its interval is true.
+/// Whatever came before, the third of consecutive good images is valid and its interval is true.
 TEST(TimeBase, ThreeGoodImagesAlwaysMakeABase) {
   std::mt19937_64 random(20);
   for (int round = 0; round < 3000; ++round) {
@@ -322,7 +322,7 @@ TEST(TimeBase, ThreeGoodImagesAlwaysMakeABase) {
     const Stream garbage = test::garbage(random, static_cast<int>(random() % 40));
     for (const auto& image : garbage) (void)base.update(image);
     const double interval_s = 1.0 / (5.0 + static_cast<double>(random() % 116));
-    // Good images are new ones: a stamp and number that garbage has not used.
+    // Good images have a stamp and a number that the garbage has not used.
     Stream good = regular(6, interval_s, static_cast<std::int64_t>(1'000'000 + random() % 1000));
     for (auto& image : good)
       image.stamp_us += 77'000'000'000 + static_cast<std::int64_t>(random() % 9);
@@ -338,7 +338,8 @@ TEST(TimeBase, ThreeGoodImagesAlwaysMakeABase) {
   }
 }
 
-/// A real stream with random faults: no interval called valid is wrong, and no count goes back.
+/// In a real stream with random faults, no interval that is called valid is wrong, and no count
+/// goes back.
 TEST(TimeBase, FaultsNeverMakeAWrongIntervalValid) {
   std::mt19937_64 random(5);
   for (int round = 0; round < 500; ++round) {

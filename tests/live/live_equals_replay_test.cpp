@@ -1,5 +1,5 @@
-// A log played by lcm-logplayer into the live processes gives the same bits as the replay, and
-// nothing is lost.
+// Tests that a log played by lcm-logplayer into the live processes gives the same bits as the
+// replay, and that nothing is lost.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -18,7 +18,7 @@ namespace {
 using test::LiveResult;
 using test::StoredEvent;
 
-// What the replay makes of a log, in the messages' own bytes.
+// The results of the replay of a log, as bytes of messages.
 struct Expected {
   std::int64_t num_images = 0;
   std::int64_t num_calibrations = 0;
@@ -56,15 +56,15 @@ Expected replay(const std::string& log) {
   return expected;
 }
 
-// Per CAN identifier, and per place in a list of objects, what was said about each camera frame:
-// without CRC, alive counter, repeats, and bursts that say "not available" for want of input, which
-// the log's end brings live and not in the replay.
+// Returns what was sent about each camera frame, by CAN identifier and place in a list of objects.
+// CRCs, alive counters and repeats are left out. So are bursts that say "not available" because
+// there is no input: they follow the end of the log live, but not in the replay.
 std::map<std::uint32_t, std::vector<std::string>> said_on_can(const std::string& path) {
   constexpr std::uint32_t kFirstId = 0x3A0;
   constexpr std::uint32_t kStatusId =
-      0x3A7;  // this and the next: the process's own counters and times
+      0x3A7;  // this one and the next have counters and times of the process
   constexpr std::uint32_t kMountId = 0x3A9;
-  constexpr std::uint32_t kListId = 0x3B0;  // the objects begin
+  constexpr std::uint32_t kListId = 0x3B0;  // the objects follow
   std::map<std::uint32_t, std::vector<std::string>> said;
   CanTraceReader reader(path);
   CanFrame frame;
@@ -152,7 +152,7 @@ void expect_live_equals_replay(const std::string& log, const std::string& speed)
   expect_same_can(log, trace.path(), expected.num_detections > 0);
 }
 
-// A real drive where there is one.
+// Converts a real drive. Returns false where there is none.
 bool convert_real(const std::string& sequence, const std::string& log) {
   const std::filesystem::path folder = test::kitti_sequence(sequence);
   if (folder.empty()) return false;
@@ -161,7 +161,8 @@ bool convert_real(const std::string& sequence, const std::string& log) {
   return true;
 }
 
-// The rendered street at KITTI's size, each pixel four times: 466 kB an image.
+// Writes the rendered street at KITTI's size. Each pixel is repeated four times, so that an image
+// has 466 kB.
 void write_large_street(const std::string& log, bool boxes) {
   CameraModel camera = test::scene_camera();
   camera.width_px *= 2;

@@ -1,5 +1,5 @@
-/// Logs with random damage: the replay may refuse what it reads, it must not crash or lose the
-/// rest.
+/// Tests logs with random damage. The replay may refuse what it reads, but it must not crash or
+/// lose the rest.
 
 #include <gtest/gtest.h>
 

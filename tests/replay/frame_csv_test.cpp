@@ -62,7 +62,7 @@ TEST(FrameCsv, TurnsVariancesIntoDeviations) {
   Messages messages;
   messages.plane.height_m = 1.5;
   messages.plane.cov[0][0] = 4e-6;
-  messages.plane.cov[2][2] = 1e-4;  // of ln height
+  messages.plane.cov[2][2] = 1e-4;  // variance of ln height
   EXPECT_NEAR(*parse_number(cell(messages.record(), "pitch_std_rad")), 2e-3, 1e-12);
   EXPECT_NEAR(*parse_number(cell(messages.record(), "height_std_m")), 0.015, 1e-12);
 }

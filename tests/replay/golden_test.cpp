@@ -1,10 +1,13 @@
-/// A rendered drive through the whole chain against committed results.
+/// Compares the results of a rendered drive, run through the whole chain, with committed ones.
 ///
-/// Replay gives the same bits every time from the same binary; that is a test of its own. Here
-/// other compilers and maths libraries may differ in the last bits, so numbers are compared to
-/// 1e-6, words and integers exactly. A larger difference means that the estimators changed: look at
-/// it, then write the new results with PLUMB_UPDATE_EXPECTED=1 build/release/tests/replay_test
-/// --gtest_filter='Golden.*' and commit them with a sentence on why they changed.
+/// Another test checks that a binary gives the same bits every time. Here, compilers and maths
+/// libraries may differ in the last bits, so numbers are compared to 1e-6, and words and integers
+/// exactly. A larger difference means that the estimators changed. Look at it, then write the new
+/// results with
+///
+///     PLUMB_UPDATE_EXPECTED=1 build/release/tests/replay_test --gtest_filter='Golden.*'
+///
+/// and commit them with a sentence that says why they changed.
 
 #include <gtest/gtest.h>
 

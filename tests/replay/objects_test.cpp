@@ -1,4 +1,4 @@
-/// DETECTIONS in a log: objects on the road, in messages, rows and CAN frames.
+/// Tests that DETECTIONS in a log give objects on the road, in messages, rows and CAN frames.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-/// The published method in the chain: chosen by configuration, same messages, same statuses.
+/// Tests the published method in the chain. The configuration chooses it, and it gives the same
+/// messages and statuses.
 #include <gtest/gtest.h>
 
 #include <cmath>

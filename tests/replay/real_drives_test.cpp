@@ -1,5 +1,6 @@
-/// Real KITTI drives, from images to metric trajectory, causal, one configuration for all. The bars
-/// are those the project promises; what it reaches is in the README.
+/// Tests real KITTI drives from the images to the metric trajectory, causally and with one
+/// configuration for all. The bounds are those that the project promises; README.md has what it
+/// reaches.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ std::vector<PoseMatrix> replay_poses(const std::filesystem::path& log, std::uint
   return read_poses(folder.write("poses.txt", text));
 }
 
-/// Segments of one drive, converted, replayed and compared; empty when it is not here.
+/// Converts, replays and compares one drive. Returns its segments, or none when it is not here.
 std::vector<SegmentError> segments_of(const std::string& name, std::vector<double> lengths_m) {
   const auto folder = test::kitti_sequence(name);
   if (folder.empty()) return {};

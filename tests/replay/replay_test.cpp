@@ -59,7 +59,7 @@ TEST(Replay, FollowsARenderedDrive) {
   ASSERT_EQ(est.size(), truth.size());
   const Eigen::Vector3d start_m = est.front().topRightCorner<3, 1>();
   EXPECT_LT(start_m.norm(), 1e-12) << "the first frame is the world";
-  // Metres from the known camera height: within a few per cent over the 30 m.
+  // The known camera height gives metres, to within a few per cent over the 30 m.
   const Eigen::Vector3d end_m = est.back().topRightCorner<3, 1>();
   EXPECT_LT((end_m - truth.back().t).norm(), 0.05 * truth.back().t.norm());
 }

@@ -1,4 +1,5 @@
-/// DETECTIONS for the rendered street: a car parked ahead, as a perfect detector boxes it.
+/// Makes DETECTIONS for the rendered street: the boxes of a perfect detector for a car parked
+/// ahead.
 #pragma once
 
 #include <vector>
@@ -8,11 +9,11 @@
 
 namespace plumb::test {
 
-inline constexpr double kParked_m = 45.0;  ///< its rear, from the first image, straight ahead
+inline constexpr double kParked_m = 45.0;  ///< distance of its rear in the first image
 inline constexpr double kParkedLeft_m = 2.5;
 inline constexpr std::int64_t kLastBoxFrame = 20;  ///< before the street bends
 
-/// The parked car's rear, 1.53 m high and 1.67 m wide, seen by `camera` from 1.65 m above the road.
+/// Boxes the parked car's rear, 1.53 m high and 1.67 m wide, for a camera 1.65 m above the road.
 inline DetectionFrame street_boxes(std::int64_t seq, const CameraModel& camera = scene_camera()) {
   const double ahead_m = kParked_m - street_drive()[static_cast<std::size_t>(seq)].t.z();
   const auto column = [&](double left_m) { return camera.cx_px - camera.fx_px * left_m / ahead_m; };
@@ -32,7 +33,7 @@ inline DetectionFrame street_boxes(std::int64_t seq, const CameraModel& camera =
   return frame;
 }
 
-/// `events`, with boxes behind each of the first images.
+/// Returns `events` with boxes behind each of the first images.
 inline std::vector<StoredEvent> with_boxes(const std::vector<StoredEvent>& events,
                                            const CameraModel& camera = scene_camera()) {
   std::vector<StoredEvent> all;

@@ -1,4 +1,4 @@
-/// LCM logs of a drive down the rendered street.
+/// Makes LCM logs of a drive down the rendered street.
 #pragma once
 
 #include <functional>
@@ -40,7 +40,8 @@ inline StoredEvent image_event(std::int64_t seq, const ImageView& image,
   return stored(capture_us, kCamera, message);
 }
 
-/// Calibration, then one image per pose; 1.65 m above the road, a little sensor noise.
+/// Makes a log with a calibration and one image per pose, 1.65 m above the road and with a little
+/// sensor noise.
 inline std::vector<StoredEvent> street_log(const std::vector<Se3>& T_world_cam) {
   const Scene scene(scene_camera());
   std::vector<StoredEvent> events = {
@@ -52,7 +53,7 @@ inline std::vector<StoredEvent> street_log(const std::vector<Se3>& T_world_cam) 
   return events;
 }
 
-/// Rendered once per test program: straight on at 0.9 m per frame, then a gentle left bend.
+/// Poses of a drive straight on at 0.9 m per frame and then through a gentle left bend.
 inline const std::vector<Se3>& street_drive() {
   static const std::vector<Se3> poses = [] {
     std::vector<Se3> drive = test::drive(22, 0.9);

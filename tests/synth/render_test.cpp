@@ -19,7 +19,7 @@ RenderedFrame render(const Studio& studio, double time_s) {
   return frame;
 }
 
-/// The place in the map that a pixel shows, from the camera model alone.
+/// Computes the place in the map that a pixel shows, from the camera model alone.
 Vector3d place_of(const RenderedFrame& frame, const CameraModel& camera, const Se3& T_map_cam,
                   int u, int v) {
   const double distance =
@@ -61,7 +61,7 @@ TEST(Renderer, RoadPixelsLieOnTheTerrainWithDistortionAndRollingShutter) {
   EXPECT_GT(road, 100);
 }
 
-/// A lane line is a marker of known place: its middle must be where the camera model projects it.
+/// The place of a lane line is known. Its middle must be where the camera model projects it.
 TEST(Renderer, LaneLineIsWhereItProjects) {
   SynthConfig config = test::small_config("motorway", 30);
   config.flat = true;
@@ -117,7 +117,7 @@ TEST(Renderer, SuccessiveFramesOfAFlatRoadWarpByThePlaneHomography) {
   const RenderedFrame b = render(studio, t1);
   const PlaneTruth plane = road_plane(studio.terrain(), studio.drive().T_map_cam(t1));
   const Se3 T_a_b = studio.drive().T_map_cam(t0).inverse() * studio.drive().T_map_cam(t1);
-  // One Gauss-Newton step for a common shift in a, with gain removed by the mean.
+  // One Gauss-Newton step finds a common shift in a. Dividing by the mean removes the gain.
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
   Vector2d g = Vector2d::Zero();
   int used = 0;

@@ -1,12 +1,12 @@
-/// Small drives that render in a moment.
+/// Configures small drives that render in a moment.
 #pragma once
 
 #include "tools/synth/studio.hpp"
 
 namespace plumb::synth::test {
 
-/// A drive of `frames` frames at a quarter of KITTI's resolution, no mount angles, noise, blur or
-/// traffic.
+/// A drive of `frames` frames at a quarter of KITTI's resolution, without mount angles, noise, blur
+/// or traffic.
 inline SynthConfig small_config(const char* route, int frames) {
   SynthConfig config;
   config.route = route;

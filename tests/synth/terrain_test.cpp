@@ -53,7 +53,7 @@ TEST(Terrain, RaysMeetTheSurfaceTheyShould) {
       if (hit.part == GroundPart::kKerbFace) {
         EXPECT_NEAR(edge, 0.0, 0.02);
       }
-      // Nothing solid lies between: the ray stays above the road's level on its way.
+      // Nothing solid lies between, so that the ray stays above the road's level on its way.
       for (double t = 0.5; t < hit.t - 0.5; t += 0.5) {
         const Eigen::Vector3d q = ray.origin + t * ray.direction;
         ASSERT_GT(q.z(), terrain.height(q.x(), q.y()) - 1e-3);

@@ -25,10 +25,10 @@ TEST(RoadPlane, NormalPointsDownAndHeightIsTheMount) {
   const PlaneTruth plane = road_plane(studio.terrain(), studio.drive().T_map_cam(1.0));
   EXPECT_NEAR(plane.height_m, 1.65, 1e-6);
   EXPECT_GT(plane.n_cam.y(), 0.99);
-  // Nose down by 0.03: the optical axis dips into the road, so the downward normal has a part along
-  // it.
+  // The nose is down by 0.03, so that the optical axis dips into the road and the downward normal
+  // has a component along it.
   EXPECT_NEAR(plane.n_cam.z(), 0.03, 1e-3);
-  // Right side down by 0.01: x dips as well.
+  // The right side is down by 0.01, so that x dips as well.
   EXPECT_NEAR(plane.n_cam.x(), 0.01, 1e-3);
   EXPECT_LT(plane.rms_m, 1e-6);
 }
@@ -140,7 +140,7 @@ TEST(Labels, BottomCentreProjectsIntoTheBoxAndRowsHaveSeventeenFields) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ' '), 16) << row;
     if (label.kind != VehicleKind::kTruck || label.truncated != 0) continue;
     found = true;
-    // It drives ahead of us, so it looks along our optical axis: rotation_y = -pi/2.
+    // It drives ahead of us, so it looks along our optical axis, where rotation_y is -pi/2.
     EXPECT_NEAR(label.rotation_y_rad, -1.5708, 0.1);
     const Vector2d foot = config.render.camera.project(label.p_cam);
     EXPECT_GT(foot.x(), label.left_px);

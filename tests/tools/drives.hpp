@@ -1,4 +1,4 @@
-/// Trajectories with known errors.
+/// Makes trajectories with known errors.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ inline PoseMatrix to_matrix(const Se3& T) {
   return matrix;
 }
 
-/// `num_frames` poses that repeat one motion from frame to frame, from the identity on.
+/// Makes `num_frames` poses that repeat one motion from frame to frame, from the identity on.
 inline std::vector<PoseMatrix> repeat(const Se3& T_prev_cam, int num_frames) {
   std::vector<PoseMatrix> poses;
   Se3 T_world_cam;
@@ -28,7 +28,7 @@ inline std::vector<PoseMatrix> repeat(const Se3& T_prev_cam, int num_frames) {
   return poses;
 }
 
-/// Ahead by `step_m`, turning right by `yaw_rad`.
+/// The motion ahead by `step_m` with a turn to the right by `yaw_rad`.
 inline Se3 drive_step(double step_m, double yaw_rad = 0.0) {
   return {exp_so3({0.0, yaw_rad, 0.0}), {0.0, 0.0, step_m}};
 }

@@ -53,7 +53,7 @@ TEST(Kitti2LcmProgram, AFullDiskLeavesASoundLogAndOneSentence) {
   if (std::system(("unshare -rm sh -c '" + mount + "' 2>/dev/null").c_str()) != 0) {
     GTEST_SKIP() << "no private mount namespace here";
   }
-  // The log lives in the namespace's own file system: copy what is left of it out.
+  // The log is in a file system of the namespace, so the script copies out what is left of it.
   const std::string script =
       folder
           .write("full.sh", mount + " || exit 9\n\"$1\" " + seq + " --out " +

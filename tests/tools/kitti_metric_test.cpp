@@ -29,16 +29,16 @@ TEST(KittiMetric, AgreesWithAHandComputationOnAStraightRoad) {
   // WHEN each true step is 1 m and each estimated one 1.1 m, over 31 frames:
   const auto segments =
       segment_errors(repeat(drive_step(1.0), 31), repeat(drive_step(1.1), 31), lengths({10}));
-  // THEN a segment ends at the first frame MORE than 10 m ahead, the eleventh; from frame 20 none
-  // is left.
+  // THEN a segment ends at the first frame MORE than 10 m ahead, which is the eleventh. From frame
+  // 20 on there is none.
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_EQ(segments[0].first_frame, 0);
   EXPECT_EQ(segments[0].last_frame, 11);
   EXPECT_EQ(segments[1].first_frame, 10);
-  // 11 steps, each 0.1 m too long, over 10 m.
+  // Each of the 11 steps is 0.1 m too long, and the segment has 10 m.
   EXPECT_NEAR(segments[0].t_ratio, 0.11, 1e-12);
   EXPECT_NEAR(segments[0].r_rad_m, 0.0, 1e-9);
-  // 10 m over twelve frames of 0.1 s, as the development kit counts.
+  // The development kit counts 10 m over twelve frames of 0.1 s.
   EXPECT_NEAR(segments[0].speed_m_s, 10.0 / 1.2, 1e-12);
 }
 
@@ -48,8 +48,8 @@ TEST(KittiMetric, AgreesWithAHandComputationOfRotation) {
                                        repeat(drive_step(1.0, 0.001), 12), lengths({10}));
   ASSERT_EQ(segments.size(), 1U);
   EXPECT_NEAR(segments[0].r_rad_m, 11 * 0.001 / 10, 1e-9);
-  // Small angles: the end lies sideways by the sum of k mrad over the 11 steps, k = 0..10; the
-  // error is seen from the estimate's end, whose frame is turned by 11 mrad.
+  // For small angles, the end is off sideways by the sum of k mrad over the 11 steps, k = 0..10.
+  // The error is stated in the frame of the estimate's end, which is turned by 11 mrad.
   EXPECT_NEAR(segments[0].t_ratio, 0.055 / 10, 1e-5);
 }
 
@@ -101,7 +101,8 @@ TEST(KittiMetric, PoolsSegmentsAndSortsThemIntoBins) {
   EXPECT_NEAR(summary.by_length[0].error.t_percent, 3.0, 1e-12);
   EXPECT_EQ(summary.by_length[2].error.num_segments, 0);
   EXPECT_TRUE(std::isnan(summary.by_length[2].error.t_percent));
-  // 5 m/s lies in the bins at 4 and 6, 12 m/s only in the one at 12: the ends do not count.
+  // 5 m/s lies in the bins at 4 and 6. 12 m/s lies only in the one at 12, because the ends of a bin
+  // do not count.
   ASSERT_EQ(summary.by_speed.size(), 3U);
   EXPECT_DOUBLE_EQ(summary.by_speed[0].at, 4.0);
   EXPECT_DOUBLE_EQ(summary.by_speed[1].at, 6.0);

@@ -1,5 +1,5 @@
-/// How roads bend and how well the direction of translation is known, out of drives drawn with
-/// both.
+/// Tests whether the fit finds the bends of roads and the accuracy of the direction of translation
+/// with which drives were drawn.
 #include "tools/learn/train/bend_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ struct Drawn {
   double chord_std = 0.0;
 };
 
-/// Three drives of `num` frames, half a camera height each, over roads that bend by a first-order
-/// process.
+/// Draws three drives of `num` frames, of half a camera height each. The bends of their roads
+/// follow a first-order process.
 std::vector<DriveSamples> drives_over(const Drawn& drawn, int num) {
   std::vector<DriveSamples> drives;
   std::mt19937_64 random(5);
@@ -54,7 +54,7 @@ TEST(BendFit, NeedsTruePlanes) {
   EXPECT_FALSE(fit_bend(drives).has_value());
 }
 
-TEST(BendFit, KeepsAMemoryThatAModelMayHoldWhereBendsAreNoise) {
+TEST(BendFit, KeepsACorrelationLengthThatAModelMayHaveWhereBendsAreNoise) {
   const auto bend = fit_bend(drives_over({{0.008, 1e-3, 2.2}, 0.001}, 300));
   ASSERT_TRUE(bend.has_value());
   EXPECT_GE(bend->correlation_length_ratio, 0.1);

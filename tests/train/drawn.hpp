@@ -1,4 +1,4 @@
-/// Samples drawn from known models.
+/// Draws samples from known models.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,8 @@
 
 namespace plumb::test {
 
-/// Features uniform where real ones lie; a share of `outliers` errors is fifty times too large.
+/// Draws features uniformly from the range of real ones. A share of `outliers` of the errors is
+/// fifty times too large.
 inline std::vector<VarianceRow> draw_rows(const LogVariance& model, int num, std::uint64_t seed,
                                           double extra_var, double outliers) {
   std::mt19937_64 random(seed);
@@ -30,9 +31,9 @@ inline std::vector<VarianceRow> draw_rows(const LogVariance& model, int num, std
   return rows;
 }
 
-/// A drive straight on, with true planes, whose dense cue has these standard deviations and whose
-/// points and direction of translation scatter by 2 % and 0.3 degrees; errors stay alike over
-/// neighbours by `correlation`.
+/// Draws a straight drive with true planes. The dense cue has these standard deviations, the points
+/// scatter by 2 % and the direction of translation by 0.3 degrees. The errors of neighbouring
+/// frames are correlated by `correlation`.
 inline DriveSamples draw_drive(const std::string& name, int num, std::uint64_t seed,
                                double ln_height_std, double correlation = 0.0) {
   std::mt19937_64 random(seed);

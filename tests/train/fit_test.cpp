@@ -1,5 +1,5 @@
-/// The whole fit: cues, correlation lengths, bends, standard deviations of a drive, the published
-/// method's lines, scores of drives that are held out.
+/// Tests the whole fit: cues, correlation lengths, bends, standard deviations of a drive, the
+/// published method's lines, and the scores of drives that are held out.
 #include "tools/learn/train/fit.hpp"
 
 #include <gtest/gtest.h>
@@ -32,13 +32,13 @@ TEST(Fit, FindsTheDeviationsOfEveryCue) {
 TEST(Fit, FindsHowLongErrorsStayAlike) {
   const double correlation = 0.8;
   const GroundModel model = fit_targets(three_drives(0.01, correlation), built_in_ground_model());
-  // A first-order process: (1 + r) / (1 - r) = 9 images share one error; the sum is cut at 15
-  // images.
+  // In a first-order process, (1 + r) / (1 - r) = 9 images share one error. The sum is cut off at
+  // 15 images.
   EXPECT_NEAR(correlated_images(model.dense_correlation_length_ratio, 0.5), 9.0, 2.5);
   EXPECT_LT(correlated_images(model.points_correlation_length_ratio, 0.5), 2.0);
 }
 
-TEST(Fit, TurnsARepetitionIntoAMemoryAndBack) {
+TEST(Fit, TurnsCorrelatedImagesIntoACorrelationLengthAndBack) {
   for (const double num_images : {1.5, 4.0, 20.0})
     EXPECT_NEAR(correlated_images(correlation_length_of(num_images, 0.6), 0.6), num_images, 1e-9);
   EXPECT_EQ(correlation_length_of(1.0, 0.6), 0.0);
@@ -92,8 +92,8 @@ TEST(Fit, ChoosesTheDriveDeviationOfTheScaleThatMakesReportedOnesTrue) {
   EXPECT_NEAR(model.ln_scale_bias_std, 0.04, 0.004);
 }
 
-/// Errors of a reported plane whose filter says 0.002 rad, and that grow with the dense cue's
-/// dissent.
+/// Draws three drives in which the filter states 0.002 rad for the plane. The plane's errors grow
+/// with the dense cue's residuals.
 std::vector<DriveSamples> three_planes(double added_var_of_that_run) {
   auto drives = three_drives();
   std::mt19937_64 random(10);
@@ -127,7 +127,7 @@ TEST(Fit, FindsWhatTheReportedPlaneErrsBesideItsFilter) {
   EXPECT_EQ(model.points.ln_var, built_in_ground_model().points.ln_var);
 }
 
-TEST(Fit, OfThePlaneDoesNotDependOnWhatTheRunAdded) {
+TEST(Fit, FindsTheSameModelOfThePlaneWhateverTheRunAdded) {
   const GroundModel start = built_in_ground_model();
   const GroundModel none = fit_targets(three_planes(0.0), start, kPlaneTargets);
   const GroundModel much = fit_targets(three_planes(1e-4), start, kPlaneTargets);
@@ -176,7 +176,7 @@ TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
   const auto scores = leave_one_out(drives, built_in_ground_model());
   ASSERT_EQ(scores.size(), 3U * (kTargets.size() - kPlaneTargets.size()));
   for (const HeldOutScore& s : scores) {
-    // The direction of translation is held against itself five frames before.
+    // The direction of translation is compared with itself five frames before.
     EXPECT_EQ(s.learned.num, s.target == Target::kChord ? 295 : 300) << s.drive;
     if (s.target != Target::kPoints) continue;
     if (s.drive == "c") {
@@ -192,7 +192,7 @@ TEST(Fit, ScoresADriveWithAModelThatDidNotSeeIt) {
   }
 }
 
-TEST(BeliefLine, HasBinsOfEqualCount) {
+TEST(ConfidenceLine, HasBinsOfEqualCount) {
   std::vector<Confidence> confidences;
   for (int i = 0; i < 1000; ++i) confidences.push_back({(7 * i % 1000) * 0.01, 1.0});
   const auto bins = bin_confidences(confidences, kNumConfidenceBins);
@@ -204,7 +204,7 @@ TEST(BeliefLine, HasBinsOfEqualCount) {
   EXPECT_EQ(bin_confidences({{1.0, 1.0}, {2.0, 1.0}, {3.0, 1.0}}, 100).size(), 1U);
 }
 
-TEST(BeliefLine, FindsTheLineThatErrorsWereDrawnFrom) {
+TEST(ConfidenceLine, FindsTheLineThatErrorsWereDrawnFrom) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   std::vector<Confidence> confidences;

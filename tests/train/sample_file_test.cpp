@@ -1,5 +1,5 @@
-/// Sample files: what is written is read back; what is not whole, of this version or of one kind is
-/// refused.
+/// Tests files of samples. What is written is read back. Files that are incomplete, of another
+/// version, or of mixed drives or algorithms are refused.
 #include "tools/learn/train/sample_file.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-/// The variance fit finds the model that samples were drawn from, through outliers and known extra
-/// noise.
+/// Tests whether the variance fit finds the model from which samples were drawn, despite outliers
+/// and known extra noise.
 #include "tools/learn/train/variance_fit.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-# What the shell scripts in tools/ share; sourced, not run.
+# Functions that the shell scripts in tools/ share. This file is sourced and not run.
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -7,7 +7,7 @@ jobs=$(nproc)
 say() { printf '\n== %s\n' "$*"; }
 die() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 2; }
 
-# show_help: prints the comment at the top of the script.
+# show_help: prints the comment at the head of the script.
 show_help() { awk 'NR == 1 { next } !/^#/ { exit } { sub(/^# ?/, ""); print }' "$0"; }
 
 # unknown_option WORD KNOWN...: ends the script and names the nearest known option. The distance is
@@ -45,7 +45,7 @@ as_root() {
   fi
 }
 
-# install_packages FILE: installs those of the Debian packages in FILE, one a line, that are missing.
+# install_packages FILE: installs the Debian packages of FILE, one per line, that are missing.
 install_packages() {
   missing=()
   local package
@@ -70,7 +70,7 @@ configure() {
   rm -f "$root/build-$preset.log"
 }
 
-# build PRESET [targets...]: on a terminal ninja shows its own progress; elsewhere only errors are shown.
+# build PRESET [targets...]: builds. On a terminal ninja shows its progress, elsewhere only errors.
 build() {
   local preset=$1 quiet=(); shift
   [ -t 1 ] || quiet=(--quiet)

@@ -22,10 +22,11 @@ class CsvTable {
   [[nodiscard]] std::size_t num_rows() const { return rows_.size(); }
   /// "FILE:LINE: " of a row, for messages about its content.
   [[nodiscard]] std::string at(std::size_t row) const;
-  /// Absent when there is no such column.
+  /// Returns nothing when there is no such column.
   [[nodiscard]] std::optional<std::string_view> text(std::size_t row,
                                                      std::string_view column) const;
-  /// Absent for an empty cell and for `nan`. Throws InputError for other text that is no number.
+  /// Returns nothing for an empty cell and for `nan`. Throws InputError for other text that is no
+  /// number.
   [[nodiscard]] std::optional<double> number(std::size_t row, std::string_view column) const;
 
  private:

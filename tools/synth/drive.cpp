@@ -16,7 +16,7 @@ constexpr double kPitchPerAccel = 0.0042;  ///< [rad per m/s2] dive and squat: 0
 constexpr double kRollPerAccel = 0.0052;   ///< [rad per m/s2] lean in bends: 0.3 degrees
 constexpr double kRoughStep = 0.05;        ///< [m]
 
-/// One spring: follows its reference, second order.
+/// A spring that follows its reference as a system of second order.
 struct Spring {
   double omega;
   double damping;
@@ -30,8 +30,8 @@ struct Spring {
   }
 };
 
-/// Unevenness under one wheel track: slope is white (ISO 8608 falls with the square of frequency),
-/// wandering bounded.
+/// Makes the unevenness under one wheel track. Its slope is white, because the spectrum of ISO 8608
+/// falls with the square of the frequency. A leak bounds the height.
 std::vector<double> rough_track(double length_m, double scale, const std::vector<double>& shared,
                                 Random& random) {
   constexpr double kSlopeSigma = 0.015;  // per 5 cm: Gd(n0) = 57e-6 m3, class B
@@ -51,7 +51,7 @@ double sample_track(const std::vector<double>& z, double s_m) {
   return z[i] + (x - static_cast<double>(i)) * (z[i + 1] - z[i]);
 }
 
-/// Heave, pitch and roll that four wheels ask for.
+/// Heave, pitch and roll that follow from the heights of four wheels.
 struct Stance {
   double z_m = 0.0;
   double pitch_rad = 0.0;

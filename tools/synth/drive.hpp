@@ -1,8 +1,9 @@
 /// The vehicle's motion: along the route, on its springs, over a rough road.
 ///
 /// Frames:
-///   map; veh: x forward, y left, z up, on the road under the rear axle; cam: x right, y
-///   down, z forward.
+///   map: as in route.hpp.
+///   veh: x forward, y left, z up, on the road under the rear axle.
+///   cam: x right, y down, z forward.
 ///   Pitch is positive with the nose down, roll with the right side down (ISO 8855).
 #pragma once
 

@@ -1,4 +1,4 @@
-/// Rays from one place against the terrain: what each direction sees first, crests included.
+/// Intersects rays from one place with the terrain, crests included.
 ///
 /// Frames:
 ///   map
@@ -29,7 +29,7 @@ class GroundRays {
   void build(const Terrain& terrain, const Eigen::Vector3d& origin, double yaw_rad,
              double half_view_rad);
 
-  /// First ground along a ray that starts near the origin. False: sky.
+  /// Finds the first ground along a ray that starts near the origin. Returns false for the sky.
   bool intersect(const Ray& ray, GroundHit& hit) const;
 
  private:

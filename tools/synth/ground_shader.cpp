@@ -137,7 +137,7 @@ double GroundShader::repairs(const Here& here) const {
     const double core = inside(0.0);
     change += r.tone * core - 0.28 * (inside(0.035) - core);  // bitumen seam
   }
-  // A seam between the lanes' two courses, here and there.
+  // Here and there is a seam between the courses of two lanes.
   const double seam_d = terrain_.route().setting.dash_offset_m + 0.15;
   if (repairs_[cell].seam)
     change -= 0.3 * coverage(here.road.d_m, seam_d, seam_d + 0.03, here.across_m);
@@ -179,7 +179,7 @@ double GroundShader::markings(const Here& here) const {
   if (!here.road.valid) return 0.0;
   const double s = here.road.s_m;
   const double d = here.road.d_m;
-  // Inside a junction the nearest edge is not our own: no lines there.
+  // Inside a junction the nearest edge is not that of the own road, and there are no lines.
   const double own_edge = std::max(d - setting.left_m, -setting.right_m - d);
   if (here.edge_m < own_edge - 0.25) return 0.0;
   const auto line = [&](double at, double width) {

@@ -1,4 +1,5 @@
-/// Asphalt with wear, patches, cracks, manholes and markings; kerbs, paving, grass.
+/// Shades the ground: asphalt with wear, patches, cracks, manholes and markings; kerbs, paving and
+/// grass.
 #pragma once
 
 #include <utility>

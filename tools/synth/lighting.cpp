@@ -57,8 +57,8 @@ float Lighting::answer(const Reflectance& surface, const Eigen::Vector3d& view,
     const Eigen::Vector3d mirrored = view + 2.0 * against * surface.n_map;
     const double grazing = 1.0 - std::clamp(against, 0.0, 1.0);
     const double fresnel = 0.04 + 0.96 * grazing * grazing * grazing * grazing * grazing;
-    // A smooth stand-in for the surroundings: bright sky above, houses near the horizon, dark road
-    // below.
+    // A smooth pattern stands in for the surroundings: bright sky above, houses near the horizon,
+    // and dark road below.
     const double up = mirrored.z();
     const double seen = up > 0.12 ? 0.75 + 0.4 * (1.0 - up) : up > 0.0 ? 0.3 + 3.7 * up : 0.15;
     const double spark =

@@ -36,7 +36,7 @@ class Lighting {
   [[nodiscard]] float answer(const Reflectance& surface, const Eigen::Vector3d& view,
                              float sunlit) const;
 
-  /// Haze between the eye and a point.
+  /// Adds the haze between the eye and a point to the point's radiance.
   [[nodiscard]] float through_air(float radiance, double distance_m) const;
 
  private:

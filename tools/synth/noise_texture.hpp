@@ -1,5 +1,5 @@
-/// Tileable noise with area-averaged mip levels: texture that keeps the variance a real pixel would
-/// see.
+/// Tileable noise with mip levels that are averaged over areas, so that a texture has the variance
+/// that a real pixel would see.
 ///
 /// Units:
 ///   metres on the surface; values have mean 0 and standard deviation 1 at level 0.

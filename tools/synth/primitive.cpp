@@ -79,7 +79,8 @@ Vector3d normal_of(const Primitive& s, int face, const Vector3d& p) {
   return n;
 }
 
-/// Pickets with a rail: one open gap per 14 cm; closes when a pixel covers more than a gap.
+/// A fence of pickets with a rail has one gap every 14 cm. It closes when a pixel covers more than
+/// a gap.
 bool fence_is_open(const Vector3d& p, double footprint_m) {
   if (footprint_m > 0.07) return false;
   const bool rail = std::abs(std::abs(p.z()) - 0.25) < 0.04;
@@ -87,8 +88,8 @@ bool fence_is_open(const Vector3d& p, double footprint_m) {
   return !rail && phase > 0.55;
 }
 
-/// Nested shells fixed in the solid, sparse outside and dense inside: ragged from every side, the
-/// same from all.
+/// Nested shells that are fixed in the solid, sparse outside and dense inside. They look ragged
+/// from every side, and are the same from all.
 struct Shell {
   double radius;
   float bias;

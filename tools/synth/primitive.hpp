@@ -1,8 +1,9 @@
-/// Convex solids and leafy ellipsoids that everything beside the road is made of, and rays against
-/// them.
+/// Convex solids and leafy ellipsoids, of which everything beside the road is made, and their
+/// intersections with rays.
 ///
 /// Frames:
-///   local: the solid's own axes, z up; map. R_map_local, centre in map.
+///   local: the solid's own axes, z up.
+///   map: as in route.hpp; the centre is in map.
 #pragma once
 
 #include <Eigen/Core>
@@ -78,8 +79,8 @@ struct Hit {
   Eigen::Vector3d n_local = Eigen::Vector3d::Zero();
 };
 
-/// The nearest hit in (0, hit.t); false leaves `hit` as it was. `pixel_rad` is the angle of one
-/// pixel: holes smaller than it close. `noise` shapes the holes.
+/// Finds the nearest hit in (0, hit.t). Without one, returns false and leaves `hit` as it was.
+/// `pixel_rad` is the angle of one pixel; smaller holes close. `noise` shapes the holes.
 bool intersect(const Primitive& solid, const Ray& ray, double pixel_rad, const VolumeNoise& noise,
                Hit& hit);
 

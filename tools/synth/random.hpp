@@ -1,5 +1,5 @@
-/// Counter-based random numbers: a value depends on its keys only, never on the order or the thread
-/// that asks.
+/// Counter-based random numbers. A value depends on its keys alone, and neither on the order nor on
+/// the thread of the calls.
 ///
 /// Source:
 ///   The finaliser of splitmix64.
@@ -22,7 +22,7 @@ namespace plumb::synth {
   return mix(mix(mix(a) ^ b) ^ c);
 }
 
-/// In [0, 1).
+/// A number in [0, 1).
 [[nodiscard]] constexpr double uniform_of(std::uint64_t hash) {
   return static_cast<double>(hash >> 11) * 0x1.0p-53;
 }

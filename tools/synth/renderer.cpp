@@ -316,7 +316,7 @@ int FrameRenderer::samples_wanted(int u, int v) const {
   compare(u + 1, v);
   compare(u, v - 1);
   compare(u, v + 1);
-  // Textures are already averaged over the smear: samples are needed where something ends.
+  // Textures are already averaged over the smear, so samples are needed only where something ends.
   if (!edge && blur < 4.0F) return 0;
   return std::clamp(static_cast<int>(std::ceil(blur / 0.9F)), edge ? config_.edge_samples : 0, 16);
 }

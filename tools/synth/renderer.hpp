@@ -1,12 +1,14 @@
-/// One camera frame by ray casting: exact for distortion, rolling shutter and motion during the
-/// exposure.
+/// Renders a camera frame by ray casting. Distortion, rolling shutter and motion during the
+/// exposure are exact.
 ///
 /// Frames:
-///   map; img: (0,0) is the centre of the upper left pixel.
+///   map: as in route.hpp.
+///   img: (0,0) is the centre of the upper left pixel.
 /// Time:
 ///   A frame's time is the middle of the exposure of its middle row.
-/// Threads FrameRenderer owns its scratch memory: one per thread. The result depends on the time
-///         only.
+/// Threads:
+///   FrameRenderer owns its scratch memory, so that each thread needs its own. The result depends
+///   on the time only.
 #pragma once
 
 #include <cstdint>

@@ -64,7 +64,8 @@ RoutePoint Route::at(double s_m) const {
   const double f = x - static_cast<double>(i);
   const RoutePoint& a = points[i];
   const RoutePoint& b = points[i + 1];
-  // Hermite: heading must be continuous, or a smooth drive would show a kink every half metre.
+  // Hermite interpolation keeps the heading continuous. Otherwise a smooth drive would show a kink
+  // every half metre.
   const Eigen::Vector2d chord = b.p_map - a.p_map;
   const double dyaw = wrap_angle(b.yaw_rad - a.yaw_rad);
   const Eigen::Vector2d ta = kStep * Eigen::Vector2d(std::cos(a.yaw_rad), std::sin(a.yaw_rad));
@@ -89,7 +90,7 @@ void smooth_samples(std::vector<double>& values, double sigma_samples) {
     total += kernel.back();
   }
   const int n = static_cast<int>(values.size());
-  const auto value = [&](int i) {  // mirrored through the end points: a steady slope stays one
+  const auto value = [&](int i) {  // mirrored at the end points, so that a steady slope stays one
     if (i < 0) return 2.0 * values.front() - values[static_cast<std::size_t>(std::min(-i, n - 1))];
     if (i >= n)
       return 2.0 * values.back() - values[static_cast<std::size_t>(std::max(2 * (n - 1) - i, 0))];

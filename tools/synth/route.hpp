@@ -41,7 +41,7 @@ struct RoutePoint {
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< unit vector of the heading
 };
 
-/// A road that joins but is not driven: a straight band.
+/// A straight road that joins but is not driven.
 struct SideRoad {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
@@ -92,7 +92,7 @@ struct Route {
                                     double source_rate_hz, double camera_ahead_m,
                                     std::uint64_t seed);
 
-/// Shared by both makers: points every kStep along a polyline with heading and curvature from its
+/// Fills the route with points every kStep along a polyline. Heading and curvature are those of its
 /// smoothed shape.
 void resample(const std::vector<Eigen::Vector3d>& polyline, double smoothing_m, Route& route);
 

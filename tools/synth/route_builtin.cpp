@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kHalfTurn = 1.5707963267948966;
 
-/// A line drawn by moving forward and turning; speed limits and stops ride along.
+/// Draws a line by moving forward and turning, with speed limits and stops along it.
 struct Pen {
   std::vector<Eigen::Vector3d> line{Eigen::Vector3d::Zero()};
   double yaw_rad = 0.0;
@@ -65,7 +65,8 @@ std::vector<double> speed_limits(const Route& route, const Pace& pace) {
   return v;
 }
 
-/// Drives along the limits; stops wait; jerk is limited by smoothing time.
+/// Makes the schedule of a drive at the limits of speed that waits at stops. Smoothing over time
+/// limits the jerk.
 void make_schedule(Route& route, const Pace& pace, double duration_s, double first_speed_m_s) {
   std::vector<double> limits = speed_limits(route, pace);
   const auto first = static_cast<std::size_t>(route.start_m / Route::kStep);

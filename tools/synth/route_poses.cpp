@@ -40,7 +40,7 @@ std::vector<std::array<double, 12>> read_rows(const std::filesystem::path& file)
   return rows;
 }
 
-/// Rear axle of each row: the camera rides `ahead_m` before it.
+/// The rear axle of each row; the camera is `ahead_m` before it.
 std::vector<Eigen::Vector3d> rear_axle(const std::vector<std::array<double, 12>>& rows,
                                        double ahead_m) {
   std::vector<Eigen::Vector3d> out;
@@ -87,8 +87,8 @@ std::vector<std::pair<std::size_t, std::size_t>> revisits(
   return pairs;
 }
 
-/// Truth heights drift by metres between passes; spreads the difference so that a place has one
-/// height.
+/// Gives every place one height. True heights drift by metres between passes, and the difference is
+/// spread over the route.
 void make_heights_consistent(std::vector<RoutePoint>& points) {
   const auto stride = static_cast<std::size_t>(kNodeStep / Route::kStep);
   std::vector<Eigen::Vector3d> nodes;
@@ -130,8 +130,8 @@ void make_heights_consistent(std::vector<RoutePoint>& points) {
   }
 }
 
-/// Truth rises by metres while a satellite fix settles, be the car at rest; what is too steep for a
-/// street is left out, and everything after it shifts.
+/// Leaves out what is too steep for a street, and shifts everything after it. True heights rise by
+/// metres while a satellite fix settles, even when the car is at rest.
 void leave_out_jumps(std::vector<RoutePoint>& points) {
   double before_m = points.front().z_m;
   for (std::size_t i = 1; i < points.size(); ++i) {

@@ -8,14 +8,14 @@
 namespace plumb::synth {
 namespace {
 
-/// Nearly normal, from one hash: the sum of four 16-bit uniforms.
+/// A nearly normal number from one hash, as the sum of four 16-bit uniforms.
 float cheap_normal(std::uint64_t h) {
   const std::uint64_t sum =
       (h & 0xffffU) + ((h >> 16) & 0xffffU) + ((h >> 32) & 0xffffU) + (h >> 48);
   return (static_cast<float>(sum) - 131070.0F) * (1.0F / 37837.2F);
 }
 
-/// Slow noise: smooth between independent values every `period_s`.
+/// Slow noise that is smooth between independent values every `period_s`.
 double wander(std::uint64_t seed, double time_s, double period_s) {
   const double x = time_s / period_s;
   const double k = std::floor(x);
@@ -78,7 +78,8 @@ void Sensor::develop(const RenderedFrame& in, double time_s, std::uint64_t frame
   const int height = in.height_px;
   image_ = in.radiance;
   scratch_.resize(image_.size());
-  // Light beyond ten times white would blur into stars: the sensor's wells are full long before.
+  // Light beyond ten times white would blur into stars, but the sensor's wells are full long
+  // before.
   for (float& value : image_) value = std::min(value, 4.0F);
   blur(width, height);
   const auto gain = static_cast<float>(config_.gain * exposure(time_s) * light);

@@ -1,4 +1,4 @@
-/// From light to bytes: lens blur, vignetting, exposure, shot and read noise, quantisation.
+/// Turns light into bytes: lens blur, vignetting, exposure, shot and read noise, and quantisation.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-/// Which solids can stand between a point and a light at infinity: bins across the light's
-/// direction.
+/// Finds the solids that can stand between a point and a light at infinity, by bins across the
+/// light's direction.
 ///
 /// Frames:
 ///   map

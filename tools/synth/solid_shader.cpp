@@ -192,7 +192,7 @@ void SolidShader::leaves(const Primitive& solid, const Hit& hit, const Patch& pa
   const double depth = hit.face == 0 ? 1.0 : hit.face == 1 ? 0.72 : 0.45;
   scale(out, depth * std::max(0.15, 1.0 + 1.9 * tone));
   out.openness = static_cast<float>(depth);
-  // Leaves face everywhere: bend the normal by the noise, or crowns look like balls.
+  // Leaves face in all directions. Without noise in the normal, crowns look like balls.
   const Vector3d wobble(octave(3.7), octave(4.1), octave(4.9));
   out.n_map = (patch.n_map + 1.7 * wobble).normalized();
 }

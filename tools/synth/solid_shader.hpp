@@ -1,4 +1,4 @@
-/// Facades, roofs, hedges, bark, paint, glass, tyres: how each material of a solid answers light.
+/// Shades solids: how facades, roofs, hedges, bark, paint, glass and tyres reflect light.
 #pragma once
 
 #include "tools/synth/primitive.hpp"

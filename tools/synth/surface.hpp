@@ -1,4 +1,4 @@
-/// What a pixel sees of a surface and how that surface answers light.
+/// What a pixel sees of a surface, and how that surface reflects light.
 ///
 /// Frames:
 ///   map

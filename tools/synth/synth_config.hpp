@@ -15,7 +15,7 @@
 
 namespace plumb::synth {
 
-/// Options that contradict each other or cannot be met, in one sentence.
+/// Says in one sentence which options contradict each other or cannot be met.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

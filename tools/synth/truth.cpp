@@ -29,8 +29,8 @@ PlaneTruth fit(const std::vector<Vector3d>& points) {
   return out;
 }
 
-/// Corners of a convex solid: every three planes meet somewhere; the meeting points that satisfy
-/// all planes count.
+/// Corners of a convex solid, which are those intersections of three planes that satisfy all
+/// planes.
 std::vector<Vector3d> convex_corners(const Primitive& solid) {
   std::vector<Vector3d> out;
   const std::size_t n = solid.num_planes;
@@ -74,7 +74,7 @@ Box project_box(const std::vector<const Primitive*>& parts, const CameraModel& c
   for (const Primitive* part : parts) {
     for (const Vector3d& p_map : outline(*part)) {
       Vector3d p = T_cam_map * p_map;
-      p.z() = std::max(p.z(), 0.3);  // beside or behind the camera: the box runs out of the image
+      p.z() = std::max(p.z(), 0.3);  // beside or behind the camera, the box leaves the image
       const Vector2d px = camera.project(p);
       box.low = box.low.cwiseMin(px);
       box.high = box.high.cwiseMax(px);

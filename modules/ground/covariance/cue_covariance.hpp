@@ -1,6 +1,7 @@
 /// How far the cues err in a frame: one interface for every model of their covariances.
 ///
-/// Units  variances of (n1, n3, ln h), as the filter has them.
+/// Units:
+///   Variances of (n1, n3, ln h), as the filter has them.
 #pragma once
 
 #include <Eigen/Core>

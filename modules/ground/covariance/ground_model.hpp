@@ -5,7 +5,8 @@
 /// are zero in a usual frame (straight on, one step of half a camera height, images that agree
 /// well), so ln_var belongs to the usual frame.
 ///
-/// Units  of the state (n1, n3, ln h).
+/// Units:
+///   Those of the state (n1, n3, ln h).
 #pragma once
 
 #include <array>
@@ -53,8 +54,8 @@ enum PlaneFeature : std::size_t {
                                           double step_ratio);
 /// Only turn and step are used.
 [[nodiscard]] CueFeatures chord_features(double turn_ratio, double step_ratio);
-/// For the reported plane. The squares are those of PlaneContext: angles between the dense cue, or
-/// the direction of translation, and the fused plane.
+/// Features of the reported plane. The squares are those of PlaneContext: angles between the dense
+/// cue, or the direction of translation, and the fused plane.
 [[nodiscard]] CueFeatures plane_features(double dense_square, double chord_square,
                                          double turn_ratio, double step_ratio);
 

@@ -1,6 +1,7 @@
 /// The height that one cue measures in one frame over a road whose normal is known.
 ///
-/// Units  [vo]; slope d(ln h) / d(n1, n3).
+/// Units:
+///   [vo]; slope d(ln h) / d(n1, n3).
 #pragma once
 
 #include <Eigen/Core>

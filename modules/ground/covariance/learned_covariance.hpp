@@ -3,7 +3,8 @@
 /// The model gives the variances of n1 and n3, and of ln h given the normal. How ln h depends on
 /// the normal follows from the frame's own pixels; together they make the dense cue's covariance.
 ///
-/// Memory  none.
+/// Memory:
+///   Nothing is allocated.
 #pragma once
 
 #include "modules/ground/covariance/cue_covariance.hpp"

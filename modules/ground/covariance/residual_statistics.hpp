@@ -4,7 +4,8 @@
 /// follows the road under the car. The fused normal lies between them, and its error is about as
 /// large as their difference.
 ///
-/// Units  of the state (n1, n3); means over the last camera heights travelled.
+/// Units:
+///   Those of the state (n1, n3), as means over the last camera heights travelled.
 #pragma once
 
 #include <Eigen/Core>

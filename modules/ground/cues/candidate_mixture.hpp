@@ -1,10 +1,14 @@
 /// How accurately a detector has placed a box, from the scores of the raw boxes around it.
 ///
-/// Model   score(b) = sum_m A_m exp(-1/2 (b - mean_m)^T cov_m^-1 (b - mean_m)), fitted to candidate
-///         boxes by least squares.
-/// Source  Song and Chandraker, CVPR 2014, equation (10).
-/// Frames  b = (u of the middle, v of the lower edge, width, height) [px] in img.
-/// Memory  kMaxSamples samples, kMaxComponents Gaussians and the normal equations in place, 35 kB.
+/// Model:
+///   score(b) = sum_m A_m exp(-1/2 (b - mean_m)^T cov_m^-1 (b - mean_m)), fitted to candidate boxes
+///   by least squares.
+/// Source:
+///   Song and Chandraker, CVPR 2014, equation (10).
+/// Frames:
+///   b = (u of the middle, v of the lower edge, width, height) [px] in img.
+/// Memory:
+///   kMaxSamples samples, kMaxComponents Gaussians and the normal equations in place, 35 kB.
 #pragma once
 
 #include <Eigen/Core>

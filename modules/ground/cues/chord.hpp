@@ -1,8 +1,10 @@
 /// Direction of translation over a chord of the camera's path: the camera moves parallel to the
 /// road, so that the plane's normal is perpendicular to the chord.
 ///
-/// Frames  cam: x right, y down, z forward, of the newest image.
-/// Units   [vo]; curvature in 1/[vo], positive in a right turn.
+/// Frames:
+///   cam: x right, y down, z forward, of the newest image.
+/// Units:
+///   [vo]; curvature in 1/[vo], positive in a right turn.
 #pragma once
 
 #include <Eigen/Core>

@@ -4,8 +4,10 @@
 /// The estimator runs every cue of kCueTable in order, hands each the prior, fuses the observations
 /// and reports them. docs/add_a_cue.md says how to add a cue.
 ///
-/// Frames  cam of the newest image: x right, y down, z forward; the normal points down.
-/// Units   [vo].
+/// Frames:
+///   cam of the newest image: x right, y down, z forward; the normal points down.
+/// Units:
+///   [vo].
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,9 @@
 /// Cue diagnostics: everything that went into one frame's fusion, for training, tests and displays.
 ///
-/// Frames  cam of the newest image.  Units  [vo]; states are (n1, n3, ln h).
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   [vo]; states are (n1, n3, ln h).
 #pragma once
 
 #include <Eigen/Core>

@@ -4,9 +4,12 @@
 /// A sweep over heights finds the basin of the right minimum. Then Gauss-Newton refines q, with
 /// gain and bias for each image pair and Student-t weights, from coarse to fine.
 ///
-/// Frames  cam of the newest image.
-/// Units   [vo], grey levels.
-/// Memory  one RoadPixels; no heap after construction.
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   [vo], grey levels.
+/// Memory:
+///   One RoadPixels; no heap after construction.
 #pragma once
 
 #include <Eigen/Core>

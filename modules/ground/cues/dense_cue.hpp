@@ -5,7 +5,8 @@
 /// searched over a range of heights: at high speed VO may track nothing nearby, and then no road
 /// point gives a height to start from.
 ///
-/// Memory  one DenseAlignment.
+/// Memory:
+///   One DenseAlignment.
 #pragma once
 
 #include "modules/ground/cues/cue.hpp"
@@ -24,7 +25,7 @@ class DenseCue final : public Cue {
   [[nodiscard]] Observation measure(const CueFrame& frame, const FramePrior& prior) override;
   [[nodiscard]] HeightMeasurement height_over(const Eigen::Vector3d& plane) const override;
 
-  /// Of the last measure(), as its Observation refers to it.
+  /// The detail of the last measure(), to which its Observation refers.
   [[nodiscard]] const DenseMeasurement& last() const { return last_; }
 
  private:

@@ -1,9 +1,11 @@
 /// Kalman filter of the camera's pitch and the heights of the tracked objects.
 ///
-/// State   (pitch of this frame, slow pitch, ln height of each object). An object keeps its height,
-///         so that a car that was measured while it was near still measures the pitch when it is
-///         far. Errors that objects share through the pitch stay correlated.
-/// Memory  kMaxHeights objects and a dense covariance in place, 10 kB.
+/// State:
+///   The pitch of this frame, the slow pitch, and ln height of each object. An object keeps its
+///   height, so that a car that was measured while it was near still measures the pitch when it is
+///   far. Errors that objects share through the pitch stay correlated.
+/// Memory:
+///   kMaxHeights objects and a dense covariance in place, 10 kB.
 #pragma once
 
 #include <Eigen/Core>

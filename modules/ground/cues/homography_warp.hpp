@@ -1,7 +1,9 @@
 /// Warps rays of this image into an older one by the homography of a plane, eight at a time.
 ///
-/// Frames  cam of the newest image; q = n / h [1/vo].
-/// Units   pixels; undistorted ray coordinates (x, y, 1).
+/// Frames:
+///   cam of the newest image; q = n / h [1/vo].
+/// Units:
+///   Pixels; undistorted ray coordinates (x, y, 1).
 #pragma once
 
 #include <Eigen/Core>

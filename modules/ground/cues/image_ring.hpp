@@ -4,7 +4,8 @@
 /// bottom. `camera()` is the model of these rows, and every pixel coordinate of the dense cue
 /// refers to it.
 ///
-/// Memory  kCapacity pyramids, sized at construction.
+/// Memory:
+///   kCapacity pyramids, sized at construction.
 #pragma once
 
 #include <array>

@@ -4,7 +4,8 @@
 /// It is not fused at standstill: the same boxes again and again would claim a certainty that they
 /// do not have.
 ///
-/// Memory  none.
+/// Memory:
+///   Nothing is allocated.
 #pragma once
 
 #include "modules/ground/cues/cue.hpp"

@@ -1,11 +1,14 @@
 /// The camera's pitch from the detected objects of one image, and which of them are consistent with
 /// it.
 ///
-/// Frames  cam, ground and the sign of the pitch as in road_plane.hpp.
-/// Source  Song and Chandraker, CVPR 2014: equation (9) in closed form, equation (10) for the
-///         confidence in a box. In addition, a track keeps the height that was measured, and boxes
-///         are combined robustly.
-/// Memory  heights, votes and one mixture fit in place, 60 kB; nothing grows.
+/// Frames:
+///   cam, ground and the sign of the pitch as in road_plane.hpp.
+/// Source:
+///   Song and Chandraker, CVPR 2014: equation (9) in closed form, equation (10) for the confidence
+///   in a box. In addition, a track keeps the height that was measured, and boxes are combined
+///   robustly.
+/// Memory:
+///   Heights, votes and one mixture fit in place, 60 kB; nothing grows.
 #pragma once
 
 #include <array>

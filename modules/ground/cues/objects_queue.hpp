@@ -1,16 +1,20 @@
 /// Detections that wait for their turn, and the camera's pitch from them, brought to the newest
 /// image: the measurement of the objects cue.
 ///
-/// Delay    Detections of an image are used `ground.detections_delay_images` images after it,
-///          however early they came, so that results depend on the messages and not on the time
-///          that a detector took. Later ones are refused. In between, the pitch turns with the
-///          camera by VO's rotation.
-/// Feedback Objects learn their heights from the dense cue's pitch in their own image, never from
-///          the filter that fuses this cue.
-/// Frames   cam, as in road_plane.hpp.
-/// Source   Song and Chandraker, CVPR 2014: equations (9) and (10), see objects_pitch.hpp; model
-///          C_d of Algorithm 1.
-/// Memory   kMaxWaiting frames of detections and an ObjectsPitch in place, 500 kB; nothing grows.
+/// Delay:
+///   Detections of an image are used `ground.detections_delay_images` images after it, however
+///   early they came, so that results depend on the messages and not on the time that a detector
+///   took. Later ones are refused. In between, the pitch turns with the camera by VO's rotation.
+/// Feedback:
+///   Objects learn their heights from the dense cue's pitch in their own image, never from the
+///   filter that fuses this cue.
+/// Frames:
+///   cam, as in road_plane.hpp.
+/// Source:
+///   Song and Chandraker, CVPR 2014: equations (9) and (10), see objects_pitch.hpp; model C_d of
+///   Algorithm 1.
+/// Memory:
+///   kMaxWaiting frames of detections and an ObjectsPitch in place, 500 kB; nothing grows.
 #pragma once
 
 #include <array>

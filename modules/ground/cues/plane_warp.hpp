@@ -5,8 +5,11 @@
 /// W = project((R + t q^T) m) with T_old_cam = (R, t). The residual is
 /// r = I_old(W) - (1 + a) I(m) - b.
 ///
-/// Frames  T_old_cam maps cam now to the older cam.  img: the rows that ImageRing keeps.
-/// Units   [vo]; grey levels 0..255.
+/// Frames:
+///   T_old_cam maps cam now to the older cam.
+///   img: the rows that ImageRing keeps.
+/// Units:
+///   [vo]; grey levels 0..255.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,8 @@
 /// Points cue: the height on which the triangulated road points agree (road_point_vote.hpp), as an
 /// observation of ln(n . centre) = ln h.
 ///
-/// Memory  one RoadPointVote.
+/// Memory:
+///   One RoadPointVote.
 #pragma once
 
 #include "modules/ground/cues/cue.hpp"
@@ -22,7 +23,7 @@ class PointsCue final : public Cue {
   /// the vote, else `fallback`, else (with `fallback` 0) a rough one. 0 with too few points.
   [[nodiscard]] double find_height(const VoOutput& vo, const FramePrior& prior, double fallback);
 
-  /// Of the last measure().
+  /// The detail of the last measure().
   [[nodiscard]] const PointsMeasurement& last() const { return last_; }
 
  private:

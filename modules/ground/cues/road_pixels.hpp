@@ -1,9 +1,13 @@
 /// Selects the pixels that show the road ahead: a trapezoid bent along the path, thinned to a fixed
 /// number.
 ///
-/// Frames  img: the rows of the newest image that ImageRing keeps; cam of the same image.
-/// Units   [vo]; plane q = n / h, so that 1/Z = q . (x, y, 1).
-/// Memory  kMaxRoadPixels in place, structure of arrays.
+/// Frames:
+///   img: the rows of the newest image that ImageRing keeps.
+///   cam of the same image.
+/// Units:
+///   [vo]; plane q = n / h, so that 1/Z = q . (x, y, 1).
+/// Memory:
+///   kMaxRoadPixels in place, structure of arrays.
 #pragma once
 
 #include <Eigen/Core>

@@ -4,9 +4,12 @@
 /// and Chandraker (CVPR 2014) with a width for each point. A robust mean follows. The result keeps
 /// the mean position of the agreeing points, so that the fusion can weigh height against pitch.
 ///
-/// Frames  cam of the newest image.
-/// Units   [vo].
-/// Memory  kMaxRoadPoints in place.
+/// Frames:
+///   cam of the newest image.
+/// Units:
+///   [vo].
+/// Memory:
+///   kMaxRoadPoints in place.
 #pragma once
 
 #include <Eigen/Core>

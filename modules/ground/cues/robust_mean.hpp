@@ -1,6 +1,7 @@
 /// Robust weighted mean of a few scalar votes: a minority of outliers has no influence.
 ///
-/// Memory   kMaxVotes in place.
+/// Memory:
+///   kMaxVotes in place.
 #pragma once
 
 #include <array>

@@ -5,7 +5,8 @@
 /// filter has one update for all of them. The function is linearised at the filter's newest state,
 /// which earlier observations of the same frame have already moved.
 ///
-/// Units  plane x = (n1, n3, ln h), h in [vo].
+/// Units:
+///   The plane is x = (n1, n3, ln h) with h in [vo].
 #pragma once
 
 #include <Eigen/Core>

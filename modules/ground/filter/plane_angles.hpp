@@ -5,7 +5,9 @@
 /// cam z, y = -cam x, z = -cam y and a normal that points down,
 ///   n = (cos p sin r, cos p cos r, sin p).
 ///
-/// Frames  cam: x right, y down, z forward.  ground: x forward, y left, z up.
+/// Frames:
+///   cam: x right, y down, z forward.
+///   ground: x forward, y left, z up.
 #pragma once
 
 #include <Eigen/Core>

@@ -13,8 +13,10 @@
 /// with e^2 = y^T S^-1 y per degree of freedom, and an observation whose e^2 exceeds its gate is
 /// rejected.
 ///
-/// Frames  cam: x right, y down, z forward; n = (n1, sqrt(1 - n1^2 - n3^2), n3) points down.
-/// Units   h in [vo], angles as sines.
+/// Frames:
+///   cam: x right, y down, z forward; n = (n1, sqrt(1 - n1^2 - n3^2), n3) points down.
+/// Units:
+///   h in [vo], angles as sines.
 #pragma once
 
 #include <Eigen/Core>

@@ -5,7 +5,8 @@
 /// road of constant vertical curvature, the angle between the two planes and the difference of
 /// their heights under the camera are both proportional to that curvature.
 ///
-/// Units  sines of angles; distance travelled in camera heights; ln h.
+/// Units:
+///   Sines of angles; distance travelled in camera heights; ln h.
 #pragma once
 
 namespace plumb {

@@ -1,6 +1,7 @@
 /// The camera's height over the road: the one length that turns VO's unit into metres.
 ///
-/// Units  metres.
+/// Units:
+///   Metres.
 #pragma once
 
 #include "core/camera_model.hpp"

@@ -1,7 +1,9 @@
 /// What each cue measures in one frame, before any covariance is attached to it.
 ///
-/// Frames  cam of the newest image: x right, y down, z forward; the normal points down.
-/// Units   [vo], VO's own unit of length; grey levels 0..255.
+/// Frames:
+///   cam of the newest image: x right, y down, z forward; the normal points down.
+/// Units:
+///   [vo], VO's own unit of length; grey levels 0..255.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,8 @@
 /// Settings of the plane filter and of its initialisation: process noise, gates and start values.
 ///
-/// Units  as the names say; `_ratio` of a length is in camera heights; angles of the normal are
-///        small, so that their sines and radians are one.
+/// Units:
+///   As the names say; `_ratio` of a length is in camera heights; angles of the normal are small,
+///   so that their sines and radians are one.
 #pragma once
 
 #include "core/numbers.hpp"

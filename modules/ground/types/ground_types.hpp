@@ -1,9 +1,13 @@
 /// Inputs and outputs of the ground estimator, and its status words.
 ///
-/// Frames  cam: x right, y down, z forward.  world: cam of the first image.
-///         ground: x forward, y left, z up, on the road under the camera.
-///         T_a_b maps b to a.  Plane: normal_cam . X = height, the normal points DOWN.
-/// Units   [vo] is VO's own unit of length; names that end in _m are metric.
+/// Frames:
+///   cam: x right, y down, z forward.
+///   world: cam of the first image.
+///   ground: x forward, y left, z up, on the road under the camera.
+///   T_a_b maps b to a.
+///   The plane is normal_cam . X = height; the normal points DOWN.
+/// Units:
+///   [vo] is VO's own unit of length; names that end in _m are metric.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,8 @@
 /// A variance that depends linearly on one feature: the models C of Song and Chandraker (CVPR 2014,
 /// Algorithm 1).
 ///
-/// Units  the user's: a variance, and the feature that the cue gives as its confidence.
+/// Units:
+///   Those of the caller's variance, and of the feature that the cue gives as its confidence.
 #pragma once
 
 #include <algorithm>

@@ -2,8 +2,10 @@
 ///
 /// The unit normal n = (n1, n2, n3) points down, n . X = h, and n2 = sqrt(1 - n1^2 - n3^2).
 ///
-/// Frames  cam: x right, y down, z forward.
-/// Units   h in [vo]; q = n / h in 1/[vo].
+/// Frames:
+///   cam: x right, y down, z forward.
+/// Units:
+///   h in [vo]; q = n / h in 1/[vo].
 #pragma once
 
 #include <Eigen/Core>

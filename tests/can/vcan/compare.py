@@ -1,9 +1,12 @@
 #!/usr/bin/python3
-"""compare DBC LIVE REFERENCE: do two candump logs carry the same signal values for every camera frame?
+"""Compares the signal values that two candump logs carry for every camera frame.
 
-The frames are decoded by canmatrix, an independent implementation, through the DBC. Alive counter, CRC, cyclic
-repeats and what was sent as "not available" for want of input are left aside; the live frames' counters and CRCs
-are checked by code of this file's own. Prints what was compared; exit code 1 when anything differs.
+    compare.py DBC LIVE REFERENCE
+
+canmatrix, an independent implementation, decodes the frames through the DBC. The comparison omits
+alive counters, CRCs, cyclic repeats, and values that were "not available" because there was no
+input. Code of this file checks the counters and CRCs of the live frames. The script prints what it
+compared, and exits with 1 when anything differs.
 """
 import collections
 import re
@@ -11,8 +14,8 @@ import sys
 
 import canmatrix.formats
 
-MOUNT = 'PLB_Mount'  # belongs to no camera frame: compared by its changes
-OBJECTS = 'PLB_Object'  # lists, of which a newer one makes older ones void
+MOUNT = 'PLB_Mount'  # compared by its changes, because it belongs to no camera frame
+OBJECTS = 'PLB_Object'  # lists; a newer one replaces those that still wait
 MOST_PASSED_OVER = 0.05
 LINE = re.compile(r'\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]{16})$')
 
@@ -27,7 +30,7 @@ def crc_e2e_11a(data, data_id):
 
 
 class Trace:
-    """Frames of one log: per message, the decoded values of every camera frame in order."""
+    """The frames of one log, as decoded values by message and camera frame, in order."""
 
     def __init__(self, path, database):
         self.database = database
@@ -81,18 +84,23 @@ class Trace:
 
     def check_cycles(self):
         for name, times in self.times.items():
-            cycle = float(self.database.frame_by_name(name).cycle_time) * 1e-3  # 0: as the list of objects asks
+            # The cycle is 0 for messages that are sent with the list of objects.
+            cycle = float(self.database.frame_by_name(name).cycle_time) * 1e-3
             mean = (times[-1] - times[0]) / max(len(times) - 1, 1)
             gap = max((b - a for a, b in zip(times, times[1:])), default=0.0)
             print(f'  {name:22} {len(times):6} frames, every {mean * 1e3:7.2f} ms, longest gap {gap * 1e3:7.2f} ms')
-            # A user-mode kernel on a busy machine loses ticks; the exact cycles are tested elsewhere.
-            least = 0.0 if name == MOUNT else 0.4 * cycle  # the mount's messages come faster than its cycle
+            # A user-mode kernel on a busy machine loses ticks. Other tests check the exact cycles.
+            # The mount's messages come faster than its cycle.
+            least = 0.0 if name == MOUNT else 0.4 * cycle
             if cycle > 0.0 and len(times) > 10 and not least < mean < 2.0 * cycle:
                 self.errors.append(f'{name}: sent every {mean * 1e3:.1f} ms, not every {cycle * 1e3:.0f} ms')
 
 
 def without_passed_over(name, got, expected, problems):
-    """The expected objects that live has too: a stalled machine passes over lists when a newer one is there already."""
+    """The expected objects that the live log has, too.
+
+    A stalled machine omits a list when a newer one is there already.
+    """
     kept = []
     for entry in expected:
         if len(kept) < len(got) and got[len(kept)] == entry:

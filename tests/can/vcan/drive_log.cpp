@@ -1,9 +1,10 @@
-/// drive_log LOG            writes an LCM log of GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS: a
-/// made-up drive that
-///                          visits every status, both ends of every range, a lost frame, lost
-///                          halves, and lists of none to more objects than CAN carries.
-/// drive_log LOG --trace T  reads any log with these channels and writes the CAN trace of its
-/// replay.
+/// Writes the log of a made-up drive for the test of plumb-can on a real kernel.
+///
+///     drive_log LOG            writes GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS to LOG
+///     drive_log LOG --trace T  reads a log with these channels, writes its replay's CAN trace to T
+///
+/// The drive has every status, both ends of every range, a lost frame, frames that lost one half,
+/// and lists from no object to more objects than CAN carries.
 #include <cmath>
 #include <cstdio>
 #include <cstring>

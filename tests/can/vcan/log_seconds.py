@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""log_seconds LOG SPEED: seconds that a kernel needs to boot, play the LCM log and stop, generously."""
+"""Prints how many seconds a kernel needs to boot, play the LCM log and stop, with a margin.
+
+    log_seconds.py LOG SPEED
+"""
 import struct
 import sys
 

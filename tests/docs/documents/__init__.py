@@ -1,1 +1,1 @@
-"""The parts of documents_test.py."""
+"""Holds the parts of documents_test.py."""

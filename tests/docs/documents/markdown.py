@@ -16,7 +16,10 @@ def spans(text):
 
 
 def commands(text):
-    """Inline code and the lines of all code blocks; a backslash at the end of a line joins it with the next."""
+    """Inline code and the lines of all code blocks.
+
+    A backslash at the end of a line joins it with the next.
+    """
     lines = []
     for _, body in _FENCED.findall(text):
         lines += body.replace("\\\n", " ").splitlines()

@@ -18,7 +18,10 @@ def check_programs(text, tree):
 
 
 def _known_options(command, tree):
-    """Who a command runs, its arguments, and the help that has to list its options; None when it is not ours."""
+    """What a command runs, its arguments, and the help that has to list its options.
+
+    Returns None when the command is not one of the project's.
+    """
     script = re.search(r"(?<![\w/])(?:tools|tests)/[\w/]+", command)
     program = re.search(r"\b(plumb-[a-z0-9]+)(?: +([a-z]+)\b)?", command)
     if script and (tree.root / script.group(0)).is_file():
@@ -112,7 +115,7 @@ def check_paths(text, tree):
 
 
 def check_identifiers(text, tree):
-    """Identifiers of the sources: with an underscore, or with several capitals like CamelCase and kConstants."""
+    """Checks identifiers: words with an underscore, or with several capitals such as kConstants."""
     for item in markdown.spans(text):
         for name in set(re.findall(rf"(?<![\w/.-])[A-Za-z_]\w*\b(?!\.(?:{_FILE_ENDINGS})\b)", item)):
             if not re.search(r"[a-z0-9]_[A-Za-z0-9]|[a-z][A-Z]", name) or name in tree.words or name.endswith("_t"):

@@ -1,4 +1,4 @@
-"""What exists in the checkout and in the build."""
+"""Finds what exists in the checkout and in the build."""
 import functools
 import os
 import re
@@ -10,7 +10,7 @@ _TEXT = (".cpp", ".hpp", ".c", ".h", ".py", ".cmake", ".lcm", ".toml", ".dbc", "
 
 
 def run(*command):
-    """What a command prints on either stream; whether it succeeds is not asked."""
+    """What a command prints on either stream, whether it succeeds or not."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=60,
                           stdin=subprocess.DEVNULL)
     return done.stdout + done.stderr
@@ -65,7 +65,7 @@ class Tree:
         self.constants = constants | {re.sub(r"^[A-Z]+_", "", name) for name in constants}
 
     def _words(self):
-        """Every identifier in sources, settings and scripts. Documents and this test do not count."""
+        """Every identifier in sources, settings and scripts, but not in documents and this test."""
         found = set()
         for path in self.files:
             below = path.relative_to(self.root).parts
@@ -83,7 +83,7 @@ class Tree:
 
     @functools.lru_cache(maxsize=None)
     def help_of(self, program, subcommand=""):
-        """The program's help without its examples; of one subcommand, or with those of all."""
+        """The program's help without its examples, of one subcommand or of all of them."""
         if subcommand:
             return run(self.bin / program, subcommand, "--help").partition("\nExamples")[0]
         return run(self.bin / program, "--help").partition("\nExamples")[0] + "".join(
@@ -96,7 +96,7 @@ class Tree:
 
     @functools.lru_cache(maxsize=None)
     def script_help(self, script):
-        """What a script says about itself: its help where it has one, else the comment at its head."""
+        """A script's help where it has one, else the comment at its head."""
         text = (self.root / script).read_text(encoding="utf8", errors="replace")
         head = "".join(re.findall(r"^#.*\n", text, re.M)) + "".join(re.findall(r'"""(.*?)"""', text, re.S)[:1])
         return run(self.root / script, "--help") if "--help" in text or "plumb_tools" in text else head

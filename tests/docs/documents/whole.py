@@ -1,4 +1,7 @@
-"""What holds for the documents as a whole: links, limits, reachability, the table of processes, the diagram."""
+"""Checks the documents as a whole.
+
+This includes links, limits, reachability, the table of processes and the diagram.
+"""
 import re
 
 from . import markdown
@@ -52,7 +55,7 @@ def reachable(tree):
 
 
 def channels_of(process, tree):
-    """What a process reads and what it writes, by its source and core/channels.hpp. Health is left out."""
+    """What a process reads and writes, by its source and core/channels.hpp, without health."""
     source = (tree.root / f"modules/processes/plumb_{process}.cpp").read_text(encoding="utf8")
     used = {tree.channel_of[name] for name in re.findall(r"\bk[A-Z]\w+", source) if name in tree.channel_of}
     used |= {name for name, publisher in tree.publisher_of.items() if publisher == process}

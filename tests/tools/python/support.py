@@ -1,4 +1,4 @@
-"""What the tests of the Python tools share: the package on the path, temporary folders, scripts."""
+"""Has what the tests of the Python tools share: the package's path, temporary folders, scripts."""
 import os
 import pathlib
 import subprocess
@@ -26,19 +26,19 @@ class FolderTest(unittest.TestCase):
         return path
 
     def run_script(self, script, *arguments):
-        """(exit code, stdout, stderr) of a script in tools/."""
+        """Runs a script in tools/. Returns (exit code, stdout, stderr)."""
         done = subprocess.run([ROOT / 'tools' / script, *map(str, arguments)], capture_output=True, text=True)
         return done.returncode, done.stdout, done.stderr
 
     def assert_refused(self, script, arguments, sentence):
-        """The script ends with code 2 and one line on stderr that has the sentence."""
+        """Expects that the script ends with code 2 and one line on stderr that has the sentence."""
         code, out, err = self.run_script(script, *arguments)
         self.assertEqual((code, out), (2, ''), err)
         self.assertEqual(err.count('\n'), 1, err)
         self.assertIn(sentence, err)
 
     def fake_program(self, name, text):
-        """A shell script that stands in for a plumb-* program."""
+        """Writes a shell script that stands in for a plumb-* program."""
         path = self.write(f'bin/{name}', '#!/bin/sh\n' + text + '\n')
         os.chmod(path, 0o755)
         return path

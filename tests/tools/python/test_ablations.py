@@ -1,4 +1,4 @@
-"""Configurations with one part left out: tools/evaluate/ablations."""
+"""Tests tools/evaluate/ablations, which writes configurations with one part left out."""
 import pathlib
 import tomllib
 import unittest

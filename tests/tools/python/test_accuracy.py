@@ -1,4 +1,4 @@
-"""Tables and modes of tools/evaluate/bench_accuracy, with reports made up."""
+"""Tests the tables and modes of tools/evaluate/bench_accuracy with made-up reports."""
 import argparse
 import unittest
 

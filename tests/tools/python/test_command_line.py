@@ -1,4 +1,4 @@
-"""One sentence and exit code 2 for what is wrong with a command line."""
+"""Tests that a wrong command line gives one sentence and exit code 2."""
 import os
 import unittest
 

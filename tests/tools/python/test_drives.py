@@ -1,4 +1,4 @@
-"""Finding, rendering, training on and evaluating drives, with stand-ins for the programs."""
+"""Tests finding, rendering, training on and evaluating drives, with stand-ins for the programs."""
 import unittest
 
 import support

@@ -1,4 +1,4 @@
-"""Figures, bounds and mount frames of the hard cases: tools/evaluate/hard_cases."""
+"""Tests the figures, bounds and mount frames of tools/evaluate/hard_cases."""
 import math
 import unittest
 

@@ -1,4 +1,4 @@
-"""Heights in VO's unit against the true step length: tools/evaluate/height_error."""
+"""Tests tools/evaluate/height_error, which compares heights with the true step length."""
 import json
 import unittest
 

@@ -1,4 +1,4 @@
-"""One scale for a whole drive: tools/evaluate/held_scale."""
+"""Tests tools/evaluate/held_scale, which keeps one scale for a whole drive."""
 import math
 import unittest
 

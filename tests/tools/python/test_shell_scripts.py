@@ -1,4 +1,4 @@
-"""The shell scripts refuse wrong options before they install, build or start anything."""
+"""Tests that shell scripts refuse wrong options before they install, build or start anything."""
 import unittest
 
 import support

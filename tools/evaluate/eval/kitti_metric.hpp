@@ -1,7 +1,7 @@
 /// The KITTI odometry benchmark's error of a trajectory over segments of fixed length.
 ///
 /// Metric:
-///   As in the benchmark's development kit. Path lengths are those of the truth in single
+///   It is that of the benchmark's development kit. Path lengths are those of the truth in single
 ///   precision. A segment begins at every tenth frame and ends at the first frame that lies more
 ///   than L further. E = inv(inv(Est_f) Est_l) inv(Gt_f) Gt_l with general inverses, t = |E_t| / L,
 ///   r = angle(E_R) / L. Speeds assume ten frames a second. Only relative poses count, so neither

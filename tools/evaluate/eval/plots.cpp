@@ -17,7 +17,8 @@ void make_folder(const fs::path& folder) {
   if (error) throw InputError("cannot make folder " + folder.string() + ": " + error.message());
 }
 
-/// Seen from above in the first frame's own axes, so that both begin at the origin and head up.
+/// The path from above in the first frame's own axes, so that all paths begin at the origin and
+/// head up.
 Curve top_view(const std::string& title, const std::vector<PoseMatrix>& poses) {
   Curve curve{title, {}, {}};
   const PoseMatrix T_first_world = poses.front().inverse();

@@ -8,7 +8,7 @@
 namespace plumb {
 namespace {
 
-/// Width 9; "-" stands for a value that there is none of.
+/// A cell of width 9; "-" stands for a missing value.
 std::string cell(double value, int decimals) {
   return std::isfinite(value) ? format("%9.*f", decimals, value) : format("%9s", "-");
 }

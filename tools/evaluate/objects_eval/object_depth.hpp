@@ -7,8 +7,9 @@
 ///   |Z - Z*| / Z* for the middle of the footprint, as in Song and Chandraker, CVPR 2014, section
 ///   6.4. Up to Z* = 10 m an object is close. Cars and vans must be whole in the image and at
 ///   most partly hidden.
-/// Fairness A sample counts for all methods or for none. All of them know boxes, tracks and the
-///          calibration, and neither images nor the camera's motion.
+/// Fairness:
+///   A sample counts for all methods or for none. All of them know boxes, tracks and the
+///   calibration, and neither images nor the camera's motion.
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@ struct ObjectsCommand {
 /// Adds the subcommand; its options fill `command`.
 CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command);
 
-/// Prints the table, writes the JSON. Returns the exit code; throws InputError and ConfigError.
+/// Prints the table and writes the JSON. Returns the exit code; throws InputError and ConfigError.
 int run_objects_command(const ObjectsCommand& command);
 
 }  // namespace plumb

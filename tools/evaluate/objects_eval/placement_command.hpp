@@ -20,7 +20,7 @@ struct PlacementCommand {
 /// Adds the subcommand; its options fill `command`.
 CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command);
 
-/// Prints the table, writes JSON and plots. Returns the exit code; throws InputError and
+/// Prints the table and writes JSON and plots. Returns the exit code; throws InputError and
 /// ConfigError.
 int run_placement_command(const PlacementCommand& command);
 

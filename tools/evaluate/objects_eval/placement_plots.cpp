@@ -12,7 +12,7 @@ namespace {
 constexpr double kBin_m = 5.0;
 constexpr std::size_t kLeastInBin = 5;
 
-/// One curve over the true depth: `of` the samples of every 5 m.
+/// A curve over the true depth that has `of` the samples of every 5 m.
 template <typename Of>
 Curve binned(const std::string& title, const std::vector<PlacementSample>& samples, Of of) {
   double farthest_m = 0.0;

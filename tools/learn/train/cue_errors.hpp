@@ -1,4 +1,4 @@
-/// Errors of the cues and of what was reported, against one frame's truth.
+/// Compares the cues and the reported values with one frame's truth.
 ///
 /// Frames:
 ///   cam of the newest image.
@@ -28,18 +28,18 @@ struct CueReference {
 void write_dense(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample);
 void write_points(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample);
 void write_chord(const CueDiagnostics& diagnostics, const CueReference& reference, Sample* sample);
-/// What every cue of kCueTable reported.
+/// Writes what every cue of kCueTable reported.
 void write_cues(const CueReports& reports, Sample* sample);
 /// Writes nothing without a true plane.
 void write_objects(const CueReport& objects, const TruePlane* truth, Sample* sample);
 
-/// The published method's cues; `truth` may be null.
+/// Writes the published method's cues. `truth` may be null.
 void write_paper(const PlaneOutput& plane, double metres_per_vo, double true_height_m,
                  const TruePlane* truth, Sample* sample);
 
-/// Height, pitch and roll. @pre plane has a true plane beside it
+/// Writes height, pitch and roll. @pre plane has a true plane beside it
 void write_plane_output(const ground_plane_t& plane, const TruePlane& truth, Sample* sample);
-/// Length, translation and rotation of the frame's motion.
+/// Writes length, translation and rotation of the frame's motion.
 void write_motion_output(const ego_motion_t& ego, const Se3& T_prev_cam_true, Sample* sample);
 
 }  // namespace plumb

@@ -9,7 +9,7 @@
 namespace plumb {
 namespace {
 
-// Frames over which correlations are summed: about the filter's own memory.
+// Correlations are summed over this many frames, which is about the filter's own memory.
 constexpr int kMostLag = 15;
 constexpr std::size_t kFewestRows = 20;
 constexpr double kMostHeldOutNees = 10.0;  // a drive that failed counts no more than this
@@ -111,7 +111,7 @@ double correlation_length_of(double num_images, double step_ratio) {
 GroundModel fit_targets(const std::vector<DriveSamples>& drives, const GroundModel& start,
                         std::span<const Target> targets) {
   GroundModel model = start;
-  // First, because the cues' rows of drives without true planes use it.
+  // The bend comes first, because the cues' rows of drives without true planes use it.
   if (std::find(targets.begin(), targets.end(), Target::kChord) != targets.end())
     model.bend = fit_bend(drives).value_or(start.bend);
   for (const Target target : targets) {

@@ -1,5 +1,4 @@
-/// The reduce step: samples of many drives -> one model, with scores on drives that the fit did not
-/// see.
+/// Fits one model to the samples of many drives, and scores it on drives that the fit did not see.
 #pragma once
 
 #include <optional>

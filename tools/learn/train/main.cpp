@@ -1,5 +1,5 @@
-/// plumb-train: drives with truth -> samples -> the model that tells how far each cue can be
-/// trusted.
+/// plumb-train: turns drives with truth into samples, and samples into the model that tells how far
+/// each cue can be trusted.
 
 #include <CLI/CLI.hpp>
 #include <string>

@@ -48,7 +48,7 @@ struct Sample {
   double turn_ratio = kNone;  ///< |curvature| times camera height
   double step_ratio = kNone;  ///< step in camera heights
   double speed_m_s = kNone;   ///< true
-  // Dense cue. "given": height once the normal is known (the true one, else the filter's).
+  // Dense cue. "given" is the height given the normal (the true one, else the filter's).
   double dense_used = kNone;
   double dense_ncc = kNone;
   double dense_sad = kNone;
@@ -65,7 +65,7 @@ struct Sample {
   double dense_err_n3 = kNone;
   double dense_err_height = kNone;
   double dense_err_given = kNone;
-  double dense_given_ref_var = kNone;  ///< of what the reference normal adds to that error
+  double dense_given_ref_var = kNone;  ///< what the reference normal adds to that error
   double dense_hand_var_n1 = kNone;    ///< from FixedCovariance, like every hand_var
   double dense_hand_var_n3 = kNone;
   double dense_hand_var_height = kNone;

@@ -1,4 +1,4 @@
-/// The columns of a sample file, in order. Part of sample.hpp.
+/// Lists the columns of a sample file, in order. This file is a part of sample.hpp.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-/// plumb-train sample: one log with truth -> one file of samples. The map step; any number may run
-/// at once.
+/// plumb-train sample: turns one log with truth into one file of samples. Any number may run at
+/// once.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,5 @@
-/// Files of samples: text, one drive in each; a file exists only when it is complete.
+/// Reads and writes files of samples. A file is text and has one drive. It exists only when it is
+/// complete.
 ///
 /// Line 1 says what it is ("# plumb-train samples, version 3, drive NAME, algorithm ID"), line 2
 /// names the columns. One row for each frame follows, then "# end N" with the number of rows.

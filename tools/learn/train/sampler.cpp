@@ -10,8 +10,8 @@
 namespace plumb {
 namespace {
 
-// Images over which VO's unit is compared with the truth: long against the truth's jitter, short
-// against VO's drift.
+// VO's unit is compared with the truth over this many images. They are enough to average out the
+// truth's jitter and so few that VO hardly drifts.
 constexpr std::int64_t kChordFrames = 10;
 constexpr double kShortestChord_m = 1.0;
 

@@ -44,7 +44,7 @@ struct VarianceScore {
 class ScoreSum {
  public:
   void add(double error, double var);
-  /// NaN without any.
+  /// The means are NaN without any pair.
   [[nodiscard]] VarianceScore mean() const;
 
  private:

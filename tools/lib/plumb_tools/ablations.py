@@ -1,4 +1,4 @@
-"""Configurations that leave out one part of the default mode: the tool tools/evaluate/ablations."""
+"""Writes configurations that leave out one part each: the tool tools/evaluate/ablations."""
 import pathlib
 import re
 

@@ -24,7 +24,7 @@ TABLE_HEAD = (
 
 
 def table_row(plane, figures):
-    """The line of a plane; `figures`: what plumb-eval placed says over all drives."""
+    """The line of a plane. `figures` is what plumb-eval placed says over all drives."""
     line = f"{plane:<15} {100 * figures['num_placed'] / max(figures['num_labels'], 1):5.0f}% |"
     for reach in ('close', 'distant'):
         f = figures[reach]['all']

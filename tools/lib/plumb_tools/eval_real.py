@@ -37,7 +37,10 @@ def replay_drive(name, drive, options, programs):
 
 
 def evaluate(names, options, programs):
-    """{'short', 'long': what plumb-eval says by drive}, of these drives whatever an earlier run left."""
+    """{'short', 'long': what plumb-eval says by drive}, of these drives alone.
+
+    The folder may hold drives of an earlier run.
+    """
     reports = {}
     with tempfile.TemporaryDirectory() as folder:
         pick = pathlib.Path(folder)
@@ -55,7 +58,10 @@ def evaluate(names, options, programs):
 
 
 def summary_of(text):
-    """What plumb-replay printed, as cells: vo and ground median and p99, processor time, rate, statuses."""
+    """What plumb-replay printed, as cells.
+
+    They are median and 99th percentile of vo and ground, processor time, rate and statuses.
+    """
     totals = [line.split() for line in text.splitlines() if line.split()[:1] == ['total']]
     rate = re.search(r'([\d.]+) frames/s', text).group(1)
     cpu = re.search(r'([\d.]+) ms of processor time', text).group(1)

@@ -9,7 +9,7 @@ def known(values):
 
 
 def mean(values):
-    """None when no value is known."""
+    """The mean of the known values. None when no value is known."""
     values = known(values)
     return sum(values) / len(values) if values else None
 
@@ -21,7 +21,7 @@ def standard_deviation(values):
 
 
 def quantile(values, q):
-    """The order statistic at rank q * n, NaN for an empty list. The median is quantile(values, 0.5)."""
+    """The order statistic at rank q * n; NaN for an empty list."""
     values = sorted(values)
     return values[min(len(values) - 1, int(q * len(values)))] if values else math.nan
 
@@ -32,7 +32,7 @@ def cell(value, digits=2):
 
 
 def pooled(entries):
-    """(t in %, r in deg/m) over all segments of several reports of plumb-eval; None without segments."""
+    """(t in %, r in deg/m) over all segments of several reports. None without segments."""
     entries = [e for e in entries if e and e['num_segments']]
     num_segments = sum(e['num_segments'] for e in entries)
     if num_segments == 0:

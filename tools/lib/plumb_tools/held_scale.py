@@ -1,4 +1,4 @@
-"""The path with one scale for the whole drive: the tool tools/evaluate/held_scale."""
+"""Gives the path with one scale for the whole drive: the tool tools/evaluate/held_scale."""
 import math
 import statistics
 
@@ -17,7 +17,7 @@ def inverse(pose):
 
 
 def product(a, b):
-    """The transform b, then a."""
+    """The product a b of two rigid transforms."""
     return [[sum(a[i][k] * b[k][j] for k in range(3)) + (a[i][3] if j == 3 else 0.0) for j in range(4)]
             for i in range(3)]
 
@@ -31,7 +31,7 @@ def first_log_scale(frames):
 
 
 def held(poses, frames):
-    """The poses with every step's length as it were with the first scale."""
+    """The poses with the length that every step would have with the first scale."""
     log_scale = first_log_scale(frames)
     path = [poses[0]]
     for before, pose, frame in zip(poses, poses[1:], frames[1:]):

@@ -9,7 +9,7 @@ POSES_PREFIX = 'POSES/'
 
 
 def read_list(path):
-    """{drive: options of plumb-synth as text} of lines 'NAME OPTIONS...'; # begins a comment line."""
+    """{drive: options of plumb-synth as text} of lines 'NAME OPTIONS...'; # begins a comment."""
     drives = {}
     for number, line in enumerate(path.read_text().splitlines(), 1):
         if not line.strip() or line.startswith('#'):

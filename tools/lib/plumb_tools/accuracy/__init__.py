@@ -1,1 +1,1 @@
-"""Accuracy of many drives in several modes and with several seeds: tools/evaluate/bench_accuracy."""
+"""Measures the accuracy of many drives in several modes: the tool tools/evaluate/bench_accuracy."""

@@ -45,7 +45,7 @@ class Bench:
         return self.out / 'pictures' / f'{name}.png'
 
     def path(self, mode, seed, drive, end):
-        """Where a run leaves the file with this end of a name."""
+        """The path at which a run leaves the file whose name has this end."""
         folder = self.out / 'runs' / mode / str(seed)
         folder.mkdir(parents=True, exist_ok=True)
         return folder / (drive + end)
@@ -56,7 +56,7 @@ class Bench:
             self.programs.run('plumb-kitti2lcm', folder, '--out', self.log(drive))
 
     def measure(self, job):
-        """Replays and evaluates one run. `job`: (mode, seed, drive)."""
+        """Replays and evaluates one run. `job` is (mode, seed, drive)."""
         self._replay(*job)
         self._evaluate(*job)
         if job[1] == self.first_seed:
@@ -91,12 +91,12 @@ class Bench:
         return drive_files.read_frames(self.path(mode, seed, drive, '.csv'))
 
     def report(self, mode, seed, drive, kind):
-        """What plumb-eval said about a run, of kind 'short', 'long' or 'plane'; None when it said nothing."""
+        """What plumb-eval said about a run ('short', 'long' or 'plane'); None when nothing."""
         path = self.path(mode, seed, drive, f'.{kind}.json')
         return json.loads(path.read_text()) if path.exists() else None
 
     def scores(self, mode):
-        """What plumb-train says about the stated variances of a mode: one entry per drive and quantity."""
+        """What plumb-train says about a mode's variances, with one entry per drive and quantity."""
         files = [self.path(mode, self.first_seed, drive, '.samples.csv') for drive in self.drives]
         files = [file for file in files if file.exists()]
         out = self.out / 'runs' / mode / 'score.json'

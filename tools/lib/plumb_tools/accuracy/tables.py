@@ -13,7 +13,7 @@ STATUSES_WITH_MOTION = ('ok', 'scale_held', 'standstill', 'coasting')
 
 
 def _error_cells(bench, mode, drives):
-    """Means over the seeds of the errors pooled over the drives, and the spread of t over the seeds."""
+    """Means over the seeds of the errors pooled over the drives, and the spread of t over seeds."""
     cells = []
     for kind in LENGTHS:
         per_seed = [pooled([bench.report(mode, seed, drive, kind)['pooled'] for drive in drives])

@@ -1,1 +1,1 @@
-"""The hard drives of tests/hard_cases and what comes out of them: tools/evaluate/hard_cases."""
+"""Runs the hard drives of tests/hard_cases: the tool tools/evaluate/hard_cases."""

@@ -1,4 +1,4 @@
-"""Holds the figures of a case against its bounds, and shows them as a row of a table."""
+"""Compares the figures of a case with its bounds, and shows them as a row of a table."""
 import math
 
 from plumb_tools.command_line import UsageError

@@ -1,4 +1,4 @@
-"""The command line of tools/evaluate/hard_cases, and the way of one case from its options to its figures."""
+"""The command line of tools/evaluate/hard_cases, and the steps from a case to its figures."""
 import json
 import pathlib
 import sys
@@ -14,7 +14,7 @@ TABLES = [ROOT / 'tests/hard_cases' / name for name in ('cases.toml', 'camera_ca
 
 
 def replay(case, log, folder, programs, user_config):
-    """Replays the log with the case's settings, which stand above the user's."""
+    """Replays the log with the case's settings, which take precedence over the user's."""
     config = user_config
     if 'config' in case:  # dotted keys must come before any table of the user's file
         config = folder / 'case.toml'
