@@ -61,6 +61,13 @@ CameraModel published_model(const CameraConfig& config, int width_px, int height
   return model;
 }
 
+std::optional<CameraModel> stated_model(const CameraConfig& config) {
+  const bool is_stated =
+      config.width_px > 0 && config.height_px > 0 && config.fx_px > 0.0 && config.fy_px > 0.0;
+  if (!is_stated) return std::nullopt;
+  return published_model(config, config.width_px, config.height_px);
+}
+
 std::string why_unusable(const CameraConfig& config, int width_px, int height_px,
                          const std::uint8_t* mask_bytes) {
   constexpr int kMinSide = 64;  // the estimators accept no smaller image

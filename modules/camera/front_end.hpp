@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/camera_model.hpp"
@@ -29,6 +30,8 @@ namespace plumb {
 
 /// The camera model that is published on CAMERA_CALIBRATION for images of this size.
 [[nodiscard]] CameraModel published_model(const CameraConfig& config, int width_px, int height_px);
+/// The same when the configuration states size and focal lengths, else nothing.
+[[nodiscard]] std::optional<CameraModel> stated_model(const CameraConfig& config);
 
 /// The reason why images cannot be published with this configuration; empty when they can.
 /// `mask_bytes` has the same meaning as for FrontEnd.

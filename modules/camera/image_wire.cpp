@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMinSide_px = 64;
 constexpr int kMaxSide_px = 8192;
+constexpr std::int64_t kMaxPixels = 1920 * 1200;  // what readers of CAMERA have room for
 constexpr int kMaxMetadata = 16;
 constexpr std::string_view kSeqKey = "seq";
 constexpr std::string_view kSessionKey = "session";
@@ -164,6 +165,8 @@ const char* from_wire(const camera_calibration_t& message, CameraModel* camera) 
       message.height > kMaxSide_px) {
     return "calibration: image size is outside [64, 8192]";
   }
+  if (std::int64_t{message.width} * message.height > kMaxPixels)
+    return "calibration: the images have more pixels than 1920 x 1200";
   if (!inside(message.fx_px, 1.0, 1e5) || !inside(message.fy_px, 1.0, 1e5))
     return "calibration: focal length is outside [1, 100000]";
   if (!inside(message.cx_px, -0.5, message.width - 0.5) ||

@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include "core/channels.hpp"
+#include "modules/camera/front_end.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/chain/ground_algorithm.hpp"
 #include "platform/bounded_decode.hpp"
@@ -28,7 +29,7 @@ const char* first_of(std::initializer_list<const char*> reasons) {
 Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
              ObjectsSink objects_sink)
     : models_(load_models(config.ground.model_file)),
-      vo_(config.vo, seed, &vo_timer_),
+      vo_(config.vo, seed, &vo_timer_, config.integrity),
       ground_(
           config.ground, config.detections, &ground_timer_,
           [this](const ground_plane_t& plane, const ego_motion_t& ego) {
@@ -43,7 +44,12 @@ Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, S
       can_(config.can),
       can_sink_(can_sink),
       sink_(std::move(sink)),
-      objects_sink_(std::move(objects_sink)) {}
+      objects_sink_(std::move(objects_sink)) {
+  if (const auto camera = stated_model(config.camera)) {
+    vo_.configure_camera(*camera);
+    ground_.configure_camera(*camera);
+  }
+}
 
 void Chain::take(const LogEvent& event) {
   if (event.channel == kCameraCalibration.name) take_calibration(event.data);

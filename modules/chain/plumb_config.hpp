@@ -10,6 +10,7 @@
 #include "modules/detector/detector_config.hpp"
 #include "modules/ground/types/ground_config.hpp"
 #include "modules/ground_paper/paper_config.hpp"
+#include "modules/integrity/integrity_config.hpp"
 #include "modules/mount/mount_config.hpp"
 #include "modules/objects/objects_config.hpp"
 #include "modules/vo/vo_config.hpp"
@@ -18,6 +19,7 @@ namespace plumb {
 
 struct PlumbConfig {
   CameraConfig camera;
+  IntegrityConfig integrity;
   VoConfig vo;
   DetectorConfig detect;
   DetectionsConfig detections;
@@ -31,6 +33,7 @@ struct PlumbConfig {
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
     CameraConfig::visit(c.camera, field);
+    IntegrityConfig::visit(c.integrity, field);
     VoConfig::visit(c.vo, field);
     DetectorConfig::visit(c.detect, field);
     DetectionsConfig::visit(c.detections, field);

@@ -13,14 +13,24 @@ GroundNode::GroundNode(const GroundConfig& config, const DetectionsConfig& detec
       probe_(probe),
       sink_(std::move(sink)) {}
 
+void GroundNode::configure_camera(const CameraModel& camera) {
+  calibration_.configure(camera);
+  build();
+}
+
 const char* GroundNode::take_calibration(const camera_calibration_t& message) {
-  CameraModel camera;
-  if (const char* why = from_wire(message, &camera)) return why;
-  if (calibrated())
-    return same_camera(camera, camera_)
-               ? nullptr
-               : "calibration differs from the first one; restart to use it";
-  camera_ = camera;
+  const char* refused = calibration_.take(message);
+  build();
+  return refused;
+}
+
+/// Makes everything that depends on the camera, when another one holds.
+void GroundNode::build() {
+  if (!calibration_.take_change()) return;
+  if (calibrated()) reset_offset_ = ego_.reset_counter + 1;
+  waiting_ = false;
+  output_ = nullptr;
+  const CameraModel& camera = calibration_.camera();
   decoder_.emplace(camera.width_px, camera.height_px);
   images_.emplace(camera.width_px, camera.height_px);
   camera_height_ = camera_height_of(config_, camera);
@@ -30,7 +40,6 @@ const char* GroundNode::take_calibration(const camera_calibration_t& message) {
     algorithm_ = std::make_unique<GroundEstimator>(config_, camera, model_);
   }
   objects_ = std::make_unique<ObjectsQueue>(config_, detections_, camera, model_.objects_n3);
-  return nullptr;
 }
 
 const char* GroundNode::take_image(std::span<const std::uint8_t> image_bytes) {
@@ -39,25 +48,27 @@ const char* GroundNode::take_image(std::span<const std::uint8_t> image_bytes) {
   if (losses_.take(frame.seq) == SeqStep::kRepeat) return "image came twice";
   if (!calibrated()) return "image came before a calibration";
   if (const char* why = decoder_->check(frame)) return why;
-  if (waiting_ && vo_.seq == frame.seq && vo_.capture_us == frame.capture_us)
+  if (waiting_ && last_motion_seq_ == frame.seq && vo_.capture_us == frame.capture_us)
     return process(&frame);
   return images_->put(frame) ? nullptr : "compressed image is larger than the image itself";
 }
 
 const char* GroundNode::take_motion(const vo_motion_t& message) {
   expire();
-  if (const char* why = from_wire(message, &vo_)) return why;
-  count_lost_motion(message);
+  VoOutput& vo = vo_;
+  if (const char* why = follow(message)) return why;
+  if (const char* why = from_wire(message, &vo)) return why;
+  last_motion_seq_ = message.seq;
   if (!calibrated()) {
     GroundOutput output;
-    output.capture_us = vo_.capture_us;
-    output.seq = vo_.seq;
+    output.capture_us = vo.capture_us;
     output.plane.reason = GroundReason::kNoCalibration;
     output.ego.reason = VoReason::kNoCalibration;
     publish(output);
     return nullptr;
   }
-  const ImageFrame* frame = images_->find(vo_.seq, vo_.capture_us);
+  renumber();
+  const ImageFrame* frame = images_->find(message.seq, message.utime);
   if (frame == nullptr) {
     waiting_ = true;
     return nullptr;
@@ -67,22 +78,64 @@ const char* GroundNode::take_motion(const vo_motion_t& message) {
   return refused;
 }
 
+/// Judges sender and order of a motion. Returns null, or why it is refused.
+const char* GroundNode::follow(const vo_motion_t& message) {
+  is_new_unit_ = false;
+  switch (sender_.take(message.session)) {
+    case OneSender::Verdict::kForeign:
+      return "VO motion comes from a second sender";
+    case OneSender::Verdict::kNew:
+      if (last_motion_seq_ >= 0) {
+        // Another run of plumb-vo counts its units anew, and nothing connects its path to ours.
+        is_new_unit_ = true;
+        begin_anew(message);
+      }
+      break;
+    case OneSender::Verdict::kSame:
+      if (message.prev_seq < 0 && last_motion_seq_ >= 0) {
+        begin_anew(message);
+      } else if (message.seq <= last_motion_seq_) {
+        return "VO motion came twice or out of order";
+      }
+      break;
+  }
+  is_motion_missing_ =
+      message.prev_seq >= 0 && last_motion_seq_ >= 0 && message.prev_seq != last_motion_seq_;
+  if (is_motion_missing_) ++num_motions_lost_;
+  return nullptr;
+}
+
+void GroundNode::begin_anew(const vo_motion_t& message) {
+  numbers_.begin_anew(message.seq);
+  last_motion_seq_ = -1;
+}
+
+/// Gives the images of vo_ the numbers that the algorithm sees, which never go back.
+void GroundNode::renumber() {
+  const auto has_motion = [this](std::int64_t seq) {
+    return seq >= 0 && numbers_.is_present(numbers_.steady(seq));
+  };
+  vo_.prev_seq = has_motion(vo_.prev_seq) ? numbers_.steady(vo_.prev_seq) : -1;
+  vo_.seq = numbers_.take(vo_.seq);
+  for (WindowPose& pose : vo_.window) pose.seq = numbers_.steady(pose.seq);
+  if (is_new_unit_) {
+    epoch_offset_ = last_epoch_ + 1 - vo_.scale_epoch;
+    vo_.scale_carry_std = kNan;
+  }
+  vo_.scale_epoch += epoch_offset_;
+  last_epoch_ = vo_.scale_epoch;
+  if (is_motion_missing_ && vo_.reason == VoReason::kNone) vo_.reason = VoReason::kMotionMissing;
+}
+
 const char* GroundNode::take_detections(const detections_t& message) {
   if (const char* why = from_wire(message, &arrived_)) return why;
   if (!calibrated()) return "detections came before a calibration";
+  arrived_.seq = numbers_.steady(arrived_.seq);
   return objects_->take(arrived_);
 }
 
 void GroundNode::expire() {
   if (waiting_) (void)process(nullptr);
-}
-
-// prev_seq names the image that VO had before. Its motion must have arrived here too.
-void GroundNode::count_lost_motion(const vo_motion_t& message) {
-  if (any_motion_ && message.prev_seq > last_motion_seq_ && message.prev_seq < message.seq)
-    ++num_motions_lost_;
-  any_motion_ = true;
-  last_motion_seq_ = message.seq;
 }
 
 const char* GroundNode::process(const ImageFrame* frame) {
@@ -102,6 +155,8 @@ const char* GroundNode::process(const ImageFrame* frame) {
 void GroundNode::publish(const GroundOutput& output) {
   to_wire(output, &plane_);
   to_wire(output, &ego_);
+  plane_.seq = ego_.seq = last_motion_seq_;
+  ego_.reset_counter += reset_offset_;
   plane_.session = ego_.session = session_;
   plane_.capture_mono_us = ego_.capture_mono_us = vo_.capture_mono_us;
   probe_->mark("to_wire");

@@ -22,12 +22,15 @@
 
 #include "core/counters.hpp"
 #include "core/stage_probe.hpp"
+#include "modules/camera/calibration_keeper.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/detections/detections_wire.hpp"
 #include "modules/ground/cues/objects_queue.hpp"
 #include "modules/ground/ground.hpp"
 #include "modules/ground/ground_wire.hpp"
 #include "modules/ground/pending_images.hpp"
+#include "modules/integrity/one_sender.hpp"
+#include "modules/integrity/steady_numbers.hpp"
 #include "modules/vo/vo_wire.hpp"
 
 namespace plumb {
@@ -49,6 +52,8 @@ class GroundNode {
   void set_session(std::int64_t session) { session_ = session; }
 
   /// Each returns null when the message was taken, else why it was refused.
+  /// States the calibration, instead of the first message.
+  void configure_camera(const CameraModel& camera);
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes);
   [[nodiscard]] const char* take_motion(const vo_motion_t& message);
@@ -76,7 +81,10 @@ class GroundNode {
   [[nodiscard]] std::int64_t num_unpaired() const { return num_unpaired_; }
 
  private:
-  void count_lost_motion(const vo_motion_t& message);
+  void build();
+  [[nodiscard]] const char* follow(const vo_motion_t& message);
+  void begin_anew(const vo_motion_t& message);
+  void renumber();
   const char* process(const ImageFrame* frame);
   void publish(const GroundOutput& output);
 
@@ -87,7 +95,7 @@ class GroundNode {
   StageProbe* probe_;
   Sink sink_;
   std::int64_t session_ = 0;
-  CameraModel camera_;
+  CalibrationKeeper calibration_;
   CameraHeight camera_height_;
   std::optional<ImageDecoder> decoder_;
   std::optional<PendingImages> images_;
@@ -98,9 +106,15 @@ class GroundNode {
   LossCounter losses_;
   VoOutput vo_;  ///< the motion that is processed or waits
   bool waiting_ = false;
-  bool any_motion_ = false;
-  std::int64_t last_motion_seq_ = 0;
+  OneSender sender_;
+  SteadyNumbers numbers_;              ///< of the images, as the algorithm sees them
+  std::int64_t last_motion_seq_ = -1;  ///< the source's number; -1: none in this time line
+  std::int32_t epoch_offset_ = 0;      ///< added to VO's scale_epoch
+  std::int32_t last_epoch_ = 0;        ///< with the offset
+  bool is_new_unit_ = false;        ///< the newest motion is the first of another run of plumb-vo
+  bool is_motion_missing_ = false;  ///< the motion before the newest one did not arrive
   std::int64_t num_motions_lost_ = 0;
+  std::int32_t reset_offset_ = 0;  ///< resets that earlier algorithms have counted
   std::int64_t num_unpaired_ = 0;
   ground_plane_t plane_{};
   ego_motion_t ego_{};

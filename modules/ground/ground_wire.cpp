@@ -83,7 +83,9 @@ const char* plane_from_wire(const ground_plane_t& message, PlaneOutput* plane) {
                   std::isfinite(plane->pitch_rad) && std::isfinite(plane->roll_rad))) {
     return "ground plane: its status says that the plane is valid, but it is not";
   }
-  if (from_wire(message.cov, &plane->cov) != nullptr) return "ground plane: not a covariance";
+  plane->cov = Eigen::Matrix3d(&message.cov[0][0]);
+  if (claims && from_wire(message.cov, &plane->cov) != nullptr)
+    return "ground plane: not a covariance";
   return cues_from_wire(message, plane);
 }
 
@@ -98,31 +100,45 @@ const char* rates_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   ego->log_scale = message.log_scale;
   ego->log_scale_std = message.log_scale_std;
   // The scale is unknown while the car has not moved yet.
-  const bool scale_valid = std::isfinite(ego->log_scale) &&
-                           (is_std(ego->log_scale_std) || (ego->status == EgoStatus::kStandstill &&
-                                                           std::isnan(ego->log_scale_std)));
-  const bool valid = ego->velocity_ground_m_s.allFinite() && ego->rate_ground_rad_s.allFinite() &&
-                     is_std(ego->speed_std_m_s) && is_std(ego->yaw_rate_std_rad_s) &&
-                     !std::isinf(ego->accel_forward_m_s2) && is_std(ego->distance_m) && scale_valid;
+  const bool scale_valid =
+      (std::isfinite(ego->log_scale) && is_std(ego->log_scale_std)) ||
+      (ego->status == EgoStatus::kStandstill && std::isnan(ego->log_scale_std));
+  // Without the interval between the images, there is neither a velocity nor a rate.
+  const bool has_rates = !std::isnan(ego->speed_std_m_s);
+  const bool rates_valid =
+      !has_rates || (ego->velocity_ground_m_s.allFinite() && ego->rate_ground_rad_s.allFinite() &&
+                     is_std(ego->speed_std_m_s) && is_std(ego->yaw_rate_std_rad_s));
+  const bool valid =
+      rates_valid && !std::isinf(ego->accel_forward_m_s2) && is_std(ego->distance_m) && scale_valid;
   return valid ? nullptr : "ego motion: a velocity, rate or scale is not a number";
+}
+
+/// The motion since the previous image, which is NaN while it is not measured.
+const char* step_from_wire(const ego_motion_t& message, EgoOutput* ego) {
+  ego->T_prev_cam = EgoOutput{}.T_prev_cam;
+  ego->cov_prev_cam.setConstant(kNan);
+  if (std::isnan(message.t_prev_cam_m[0])) return nullptr;
+  if (from_wire(message.q_prev_cam, message.t_prev_cam_m, &ego->T_prev_cam) != nullptr)
+    return "ego motion: a pose is not a pose";
+  if (from_wire(message.cov_prev_cam, &ego->cov_prev_cam) != nullptr)
+    return "ego motion: not a covariance";
+  return nullptr;
 }
 
 const char* ego_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   if (message.status < ego_motion_t::STATUS_OK || message.status > ego_motion_t::STATUS_LOST)
     return "ego motion: unknown status";
-  if (message.reason < 0 || message.reason > static_cast<std::int8_t>(VoReason::kImplausible))
+  if (message.reason < 0 ||
+      message.reason > static_cast<std::int8_t>(VoReason::kCalibrationDoubted))
     return "ego motion: unknown reason";
   ego->status = static_cast<EgoStatus>(message.status);
   ego->reason = static_cast<VoReason>(message.reason);
   ego->reset_counter = message.reset_counter;
-  if (from_wire(message.q_prev_cam, message.t_prev_cam_m, &ego->T_prev_cam) != nullptr ||
-      from_wire(message.q_world_cam, message.t_world_cam_m, &ego->T_world_cam) != nullptr) {
+  if (from_wire(message.q_world_cam, message.t_world_cam_m, &ego->T_world_cam) != nullptr)
     return "ego motion: a pose is not a pose";
-  }
-  if (from_wire(message.cov_prev_cam, &ego->cov_prev_cam) != nullptr ||
-      from_wire(message.cov_world_cam, &ego->cov_world_cam) != nullptr) {
+  if (from_wire(message.cov_world_cam, &ego->cov_world_cam) != nullptr)
     return "ego motion: not a covariance";
-  }
+  if (const char* why = step_from_wire(message, ego)) return why;
   const char* why = rates_from_wire(message, ego);
   const bool silent = ego->status == EgoStatus::kInitializing || ego->status == EgoStatus::kLost;
   return silent ? nullptr : why;  // rates of such a motion are not valid and may be anything

@@ -53,6 +53,7 @@ void write_plane(const PlaneFilter& filter, const PlaneEvidence& evidence, Plane
   plane->pitch_rad = pitch_of(plane->normal_cam);
   plane->roll_rad = roll_of(plane->normal_cam);
 
+  plane->cov.setZero();
   const Eigen::Matrix2d J = angles_jacobian(plane->normal_cam);
   plane->cov.topLeftCorner<2, 2>() = J * filter.ahead_cov().topLeftCorner<2, 2>() * J.transpose();
   plane->cov(0, 0) += evidence.added.pitch_rad2;

@@ -17,7 +17,8 @@ constexpr double kEndOfAlarmRatio = 0.5;
 MountReason reason_of(const GroundOutput& ground) {
   if (ground.ego.status != EgoStatus::kOk) return MountReason::kNoMotion;
   if (ground.plane.status != GroundStatus::kOk) return MountReason::kNoPlane;
-  if (ground.ego.velocity_ground_m_s.norm() < kLeastSpeed_m_s) return MountReason::kSlow;
+  // A speed that is not measured is NaN.
+  if (!(ground.ego.velocity_ground_m_s.norm() >= kLeastSpeed_m_s)) return MountReason::kSlow;
   if (std::abs(ground.ego.rate_ground_rad_s.z()) > kStraight_rad_s) return MountReason::kTurning;
   return MountReason::kNone;
 }

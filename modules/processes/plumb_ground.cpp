@@ -2,6 +2,7 @@
 ///   -> GROUND_PLANE, EGO_MOTION, MOUNT
 #include <optional>
 
+#include "modules/camera/front_end.hpp"
 #include "modules/chain/ground_algorithm.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/ground/ground_node.hpp"
@@ -34,7 +35,11 @@ class GroundProcess {
                     [this](const plumb::detections_t& m) { return node_.take_detections(m); }),
         image_timeout_(process.loop().timer([this] { node_.expire(); })) {
     node_.set_session(process.session());
-    process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+    if (const auto camera = plumb::stated_model(config.camera)) {
+      node_.configure_camera(*camera);
+    } else {
+      process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+    }
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "modules/camera/front_end.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/vo/vo_node.hpp"
 #include "platform/process.hpp"
@@ -10,22 +11,30 @@ namespace {
 
 class VoProcess {
  public:
-  VoProcess(plumb::Process& process, const plumb::VoConfig& config, std::uint64_t seed)
+  VoProcess(plumb::Process& process, const plumb::PlumbConfig& config, std::uint64_t seed)
       : process_(process),
-        node_(config, seed, &process.timer()),
+        node_(config.vo, seed, &process.timer(), config.integrity),
         motion_(process.bus(), plumb::kVoMotion),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
         camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
                 [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }) {
     node_.set_session(process.session());
-    process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+    if (const auto camera = plumb::stated_model(config.camera)) {
+      node_.configure_camera(*camera);
+    } else {
+      process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+    }
   }
 
  private:
   const char* on_calibration(const plumb::camera_calibration_t& message) {
     const char* refused = node_.take_calibration(message);
-    if (node_.calibrated()) process_.health().clear_condition();
+    if (refused != nullptr && node_.calibrated()) {
+      process_.health().set_condition(plumb::HealthState::kDegraded, refused);
+    } else if (node_.calibrated()) {
+      process_.health().clear_condition();
+    }
     return refused;
   }
 
@@ -56,5 +65,5 @@ int main(int argc, char** argv) {
     app.add_option("--seed", seed, "seed of the random sampling; default 1");
   });
   std::optional<VoProcess> vo;
-  return process.run(argc, argv, &config, [&] { vo.emplace(process, config.vo, seed); });
+  return process.run(argc, argv, &config, [&] { vo.emplace(process, config, seed); });
 }

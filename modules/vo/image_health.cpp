@@ -1,19 +1,11 @@
 #include "modules/vo/image_health.hpp"
 
 #include <cmath>
-#include <cstring>
 
 namespace plumb::vo {
 namespace {
 
 constexpr int kRowStep = 4;
-
-bool identical(const ImageView& a, const ImageView& b) {
-  for (int v = 0; v < a.height_px; ++v) {
-    if (std::memcmp(a.row(v), b.row(v), static_cast<std::size_t>(a.width_px)) != 0) return false;
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -39,11 +31,10 @@ ImageLevels measure_levels(const ImageView& image) {
   return {mean, std::sqrt(std::max(0.0, square - mean * mean))};
 }
 
-VoReason judge_image(const ImageView& image, const ImageView& previous, const VoConfig& config) {
+VoReason judge_image(const ImageView& image, const VoConfig& config) {
   const ImageLevels levels = measure_levels(image);
   if (levels.mean_grey < config.dark_grey) return VoReason::kImageDark;
   if (levels.std_grey < config.flat_std_grey) return VoReason::kImageFlat;
-  if (!previous.empty() && identical(image, previous)) return VoReason::kImageFrozen;
   return VoReason::kNone;
 }
 

@@ -14,10 +14,7 @@ struct ImageLevels {
 /// Measures mean and standard deviation of the grey values of every fourth row.
 [[nodiscard]] ImageLevels measure_levels(const ImageView& image);
 
-/// Returns kNone for a usable image, else kImageDark, kImageFlat or kImageFrozen. Sensor noise
-/// makes any two images differ, also at a standstill. An image that is identical to the previous
-/// one was therefore not taken by a sensor. `previous` may be empty.
-[[nodiscard]] VoReason judge_image(const ImageView& image, const ImageView& previous,
-                                   const VoConfig& config);
+/// Returns kNone for a usable image, else kImageDark or kImageFlat.
+[[nodiscard]] VoReason judge_image(const ImageView& image, const VoConfig& config);
 
 }  // namespace plumb::vo

@@ -58,6 +58,12 @@ void Initializer::begin(const FrameTime& time, LocalMap& map, VoOutput* out) {
   out->reason = VoReason::kFirstFrame;
 }
 
+void Initializer::begin_anew(const FrameTime& time, LocalMap& map, VoOutput* out) {
+  begin(time, map, out);
+  restarting_ = true;
+  speed_known_ = false;
+}
+
 /// Starts tracks in `image` and drops all older frames and tracks.
 void Initializer::set_reference(std::int64_t seq, const Se3& T_cam_world, const Pyramid& image,
                                 LocalMap& map, VoOutput* out) {
@@ -150,8 +156,9 @@ void Initializer::restart(const FrameTime& time, LocalMap& map, MotionPredictor&
 void Initializer::report_unsolved(const FrameTime& time, VoReason reason, MotionPredictor& motion,
                                   VoOutput* out) const {
   out->reason = reason;
-  out->status = restarting_ ? VoStatus::kLost : VoStatus::kInitializing;
-  if (!restarting_) return;
+  const bool failed = restarting_ && motion.known();
+  out->status = failed ? VoStatus::kLost : VoStatus::kInitializing;
+  if (!failed) return;
   const PredictedMotion predicted = motion.extrapolate(time.dt_s);
   if (!predicted.valid) return;
   out->status = VoStatus::kCoasting;

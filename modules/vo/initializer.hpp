@@ -39,6 +39,9 @@ class Initializer {
   /// Makes the newest image of `map`, which is the first one, the reference. `out` gets status,
   /// reason and the number of new tracks.
   void begin(const FrameTime& time, LocalMap& map, VoOutput* out);
+  /// As begin(), for an image that nothing connects with the earlier ones: the unit of length is
+  /// lost.
+  void begin_anew(const FrameTime& time, LocalMap& map, VoOutput* out);
   /// Tracks the reference into the newest image of `map` and tries to solve the two views. `out`
   /// gets status, reason, covariance and the counts of tracks. @pre has_reference(), not done()
   void update(const FrameTime& time, LocalMap& map, MotionPredictor& motion, VoOutput* out,

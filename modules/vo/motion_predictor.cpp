@@ -14,7 +14,7 @@ constexpr double kTurnAccelerationStd = 0.2;  // rad/s^2
 }  // namespace
 
 MotionPredictor::MotionPredictor(const VoConfig& config)
-    : coast_limit_s_(config.coast_limit_s), coast_decay_s_(config.coast_decay_s) {}
+    : MotionPredictor(config.coast_limit_s, config.coast_decay_s) {}
 
 void MotionPredictor::observe(const Se3& T_prev_cam, double dt_s) {
   velocity_ = T_prev_cam.t / dt_s;

@@ -31,7 +31,10 @@ class MotionPredictor {
   /// Ends coasting although no motion was measured: the image was localised.
   void mark_seen() { unseen_s_ = 0.0; }
 
-  /// Returns whether a motion was ever measured.
+  /// Drops what was measured.
+  void forget() { *this = MotionPredictor(coast_limit_s_, coast_decay_s_); }
+
+  /// Returns whether a motion was measured.
   [[nodiscard]] bool known() const { return known_; }
   /// Returns the motion over `dt_s` at constant velocity, or the identity unless known().
   [[nodiscard]] Se3 predict(double dt_s) const;
@@ -47,6 +50,9 @@ class MotionPredictor {
   [[nodiscard]] PredictedMotion coast(double dt_s);
 
  private:
+  MotionPredictor(double coast_limit_s, double coast_decay_s)
+      : coast_limit_s_(coast_limit_s), coast_decay_s_(coast_decay_s) {}
+
   double coast_limit_s_;
   double coast_decay_s_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // [vo]/s

@@ -33,13 +33,17 @@ Pipeline::Pipeline(const VoConfig& config, const CameraModel& camera, std::uint6
 const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
   probe.begin();
   if (!accept(input)) return out_;
-  const VoReason bad = judge_image(
-      input.image, map_.has_image() ? map_.last_image().level(0) : ImageView{}, config_);
+  const VoReason bad =
+      input.unusable != VoReason::kNone ? input.unusable : judge_image(input.image, config_);
   if (bad == VoReason::kNone) map_.newest_image().build(input.image);
   probe.mark("pyramid");
 
+  if (input.is_discontinuous) break_off();
   if (bad != VoReason::kNone) {
     coast(bad);
+  } else if (is_broken_off_) {
+    is_broken_off_ = false;
+    initializer_.begin_anew(time_, map_, &out_);
   } else if (!initializer_.has_reference()) {
     initializer_.begin(time_, map_, &out_);
   } else if (!initializer_.done()) {
@@ -52,8 +56,7 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
   return out_;
 }
 
-/// Returns whether the image has the camera's size and is later than the previous one. Clears out_
-/// and sets time_.
+/// Returns whether the image has the camera's size. Clears out_ and sets time_.
 bool Pipeline::accept(const VoInput& input) {
   const std::int32_t epoch = out_.scale_epoch;
   out_ = VoOutput{};
@@ -65,15 +68,18 @@ bool Pipeline::accept(const VoInput& input) {
     out_.reason = VoReason::kNoCalibration;  // the calibration is of another size
     return false;
   }
-  if (last_seq_ >= 0 && input.capture_us <= last_us_) {
-    out_.reason = VoReason::kTimeBackwards;
-    return false;
-  }
   const bool first = last_seq_ < 0;
-  time_ = {input.seq, last_seq_,
-           first ? 0.0 : 1e-6 * static_cast<double>(input.capture_us - last_us_)};
+  time_ = {input.seq, last_seq_, first ? 0.0 : input.interval_s};
   if (!first && input.seq != last_seq_ + 1) out_.reason = VoReason::kFramesMissing;
   return true;
+}
+
+/// Drops what is known of the motion. The next usable image begins a new map.
+void Pipeline::break_off() {
+  motion_.forget();
+  zero_motion_.reset();
+  coasted_cov_.setZero();
+  is_broken_off_ = initializer_.has_reference();
 }
 
 /// Handles an image that shows nothing. The motion is predicted and fades.
@@ -88,6 +94,7 @@ void Pipeline::coast(VoReason reason) {
   if (!predicted.valid) return;
   out_.status = VoStatus::kCoasting;
   out_.cov_prev_cam = predicted.cov;
+  coasted_cov_ += predicted.cov;
 }
 
 /// Localises the newest image in the map and updates the map with it.
@@ -209,6 +216,9 @@ void Pipeline::report_fit(const PoseFit& pose) {
   }
   if (!scratch_.empty()) out_.median_flow_px = upper_median(scratch_);
   out_.cov_prev_cam = motion_covariance(pose, map_.last_pose());
+  // The motion from a predicted pose to a measured one makes up for the error of the prediction.
+  out_.cov_prev_cam += coasted_cov_;
+  coasted_cov_.setZero();
 }
 
 /// Reports motion, window and road points, from the poses as they are refined now.
@@ -229,7 +239,6 @@ void Pipeline::report(const VoInput& input) {
     }
     T_last_world_ = T_cam_world;
   }
-  last_us_ = input.capture_us;
   last_seq_ = input.seq;
 }
 

@@ -1,8 +1,8 @@
 /// Visual odometry, step by step. VisualOdometry hides this class from its users.
 ///
 /// update() takes one image:
-///   1. accept() compares size, time and number of the image with what is expected. judge_image()
-///      refuses images that show nothing.
+///   1. accept() compares size and number of the image with what is expected. judge_image() refuses
+///      images that show nothing; the caller may have refused it already (VoInput::unusable).
 ///   2. For a refused image, coast() predicts the motion. Before there is a map, Initializer solves
 ///      two views.
 ///   3. Otherwise track() searches the tracks in the image and fits its pose to them (localize).
@@ -38,6 +38,7 @@ class Pipeline {
 
  private:
   [[nodiscard]] bool accept(const VoInput& input);
+  void break_off();
   void coast(VoReason reason);
   void track(StageProbe& probe);
   [[nodiscard]] PoseFit localize(StageProbe& probe);
@@ -58,9 +59,10 @@ class Pipeline {
   Initializer initializer_;
 
   FrameTime time_;
-  std::int64_t last_us_ = 0;    // time stamp of the previous image
-  std::int64_t last_seq_ = -1;  // its number; -1 before the first image
+  std::int64_t last_seq_ = -1;  // number of the previous image; -1 before the first image
+  bool is_broken_off_ = false;  // the next usable image begins a new map
   Se3 T_last_world_;            // its pose as it was published
+  Matrix6d coasted_cov_ = Matrix6d::Zero();  // of that pose, if it was predicted
   std::vector<double> scratch_;
   VoOutput out_;
 };

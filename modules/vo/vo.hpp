@@ -73,6 +73,7 @@ enum class VoReason : std::int8_t {
   kTimeUnit = 23,
   kMotionMissing = 24,
   kImplausible = 25,
+  kCalibrationDoubted = 26,
 };
 
 struct VoInput {
@@ -81,6 +82,9 @@ struct VoInput {
   ImageView image;              ///< grey, of the camera's size; it is not used after the call
   /// [s] Best guess of the time since the previous image, > 0; it is not used for the first one.
   double interval_s = 0.1;
+  /// Nothing is known of the motion since the previous image, for example because the camera was
+  /// restarted: then visual odometry begins anew, with a unit of its own.
+  bool is_discontinuous = false;
   /// Why the image must not be used: then the motion is predicted. kNone for a usable image.
   VoReason unusable = VoReason::kNone;
 };

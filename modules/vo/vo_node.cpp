@@ -2,34 +2,50 @@
 
 namespace plumb {
 
-VoNode::VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe)
-    : config_(config), seed_(seed), probe_(probe) {}
+VoNode::VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe,
+               const IntegrityConfig& integrity)
+    : config_(config), integrity_(integrity), seed_(seed), probe_(probe) {}
 
-const char* VoNode::take_calibration(const camera_calibration_t& message) {
-  CameraModel camera;
-  if (const char* why = from_wire(message, &camera)) return why;
-  if (calibrated())
-    return same_camera(camera, camera_)
-               ? nullptr
-               : "calibration differs from the first one; restart to use it";
-  camera_ = camera;
-  decoder_.emplace(camera.width_px, camera.height_px);
-  estimator_.emplace(config_, camera, seed_);
-  return nullptr;
+void VoNode::configure_camera(const CameraModel& camera) {
+  calibration_.configure(camera);
+  build();
 }
 
-const char* VoNode::take_image(std::span<const std::uint8_t> image_bytes,
-                               [[maybe_unused]] std::int64_t arrival_us) {
+const char* VoNode::take_calibration(const camera_calibration_t& message) {
+  const char* refused = calibration_.take(message);
+  build();
+  return refused;
+}
+
+/// Makes everything that depends on the camera, when another one holds.
+void VoNode::build() {
+  if (!calibration_.take_change()) return;
+  const CameraModel& camera = calibration_.camera();
+  decoder_.emplace(camera.width_px, camera.height_px);
+  judge_.emplace(integrity_, camera.width_px, camera.height_px);
+  estimator_.emplace(config_, camera, seed_);
+}
+
+const char* VoNode::take_image(std::span<const std::uint8_t> image_bytes, std::int64_t arrival_us) {
   fresh_ = false;
   probe_->begin();
   ImageFrame frame;
   if (const char* why = read_image(image_bytes, &frame)) return why;
-  if (losses_.take(frame.seq) == SeqStep::kRepeat) return "image came twice";
   if (!calibrated()) return publish_without_calibration(frame);
-  VoInput input{frame.capture_us, frame.seq, {}};
-  if (const char* why = decoder_->decode(frame, &input.image)) return why;
+  if (const char* why = decoder_->check(frame)) return why;
+  if (const char* why = judge_->judge_time(frame, arrival_us)) return why;
+  ImageView image;
+  if (const char* why = decoder_->decode(frame, &image)) return why;
   probe_->mark("decode");
+  const VoInput input = judge_->judge_picture(image);
+  probe_->mark("judge");
   to_wire(estimator_->update(input, *probe_), &motion_);
+  judge_->complete(&motion_);
+  if (calibration_.is_doubted()) {
+    motion_.status = vo_motion_t::STATUS_LOST;
+    motion_.reason = vo_motion_t::REASON_CALIBRATION_DOUBTED;
+  }
+  motion_.session = session_;
   probe_->mark("to_wire");
   fresh_ = true;
   return nullptr;
@@ -41,6 +57,7 @@ const char* VoNode::publish_without_calibration(const ImageFrame& frame) {
   output.seq = frame.seq;
   output.reason = VoReason::kNoCalibration;
   to_wire(output, &motion_);
+  motion_.session = session_;
   fresh_ = true;
   return "image came before a calibration";
 }

@@ -1,12 +1,13 @@
 /// Everything that plumb-vo does between the bytes of CAMERA and the message VO_MOTION. The replay
 /// runs the same class.
 ///
-/// The first valid calibration creates the estimator. The same calibration is ignored later, and a
-/// different one is refused: the process must be restarted to use it. An image that comes before
-/// the calibration yields a motion with LOST and NO_CALIBRATION.
+/// CalibrationKeeper decides which calibration holds, and ImageJudge which images are used. An
+/// image that comes before a calibration yields a motion with LOST and NO_CALIBRATION, and one that
+/// comes while calibrations contradict each other, LOST and CALIBRATION_DOUBTED.
 ///
 /// Memory:
-///   The decoder and the estimator are allocated with the first calibration; nothing after it.
+///   Decoder, judge and estimator are allocated when a calibration begins to hold; nothing after
+///   it.
 /// Errors:
 ///   take_*() return null when the message was taken, else the reason as a string literal.
 #pragma once
@@ -15,9 +16,10 @@
 #include <optional>
 #include <span>
 
-#include "core/counters.hpp"
 #include "core/stage_probe.hpp"
+#include "modules/camera/calibration_keeper.hpp"
 #include "modules/camera/image_wire.hpp"
+#include "modules/vo/image_judge.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/vo_wire.hpp"
 
@@ -27,11 +29,14 @@ class VoNode {
  public:
   /// @param probe  marks the stages "decode", those of the estimator, and "to_wire"; must outlive
   ///               the node
-  VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe);
+  VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe,
+         const IntegrityConfig& integrity = {});
 
   /// Names this run of the process in the motions.
   void set_session(std::int64_t session) { session_ = session; }
 
+  /// States the calibration, instead of the first message.
+  void configure_camera(const CameraModel& camera);
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   /// `arrival_us` is the monotonic time at which the image reached this machine; in a replay it is
   /// the image's own time stamp.
@@ -41,20 +46,24 @@ class VoNode {
   /// Returns the motion to publish after take_image(), or null when there is none.
   [[nodiscard]] const vo_motion_t* motion() const { return fresh_ ? &motion_ : nullptr; }
   [[nodiscard]] bool calibrated() const { return estimator_.has_value(); }
+  /// Whether calibrations contradict each other.
+  [[nodiscard]] bool is_calibration_doubted() const { return calibration_.is_doubted(); }
   /// Returns the number of images that never came, by the gaps in their numbers.
-  [[nodiscard]] std::int64_t num_lost() const { return losses_.num_lost(); }
+  [[nodiscard]] std::int64_t num_lost() const { return judge_ ? judge_->num_lost() : 0; }
 
  private:
+  void build();
   const char* publish_without_calibration(const ImageFrame& frame);
 
   VoConfig config_;
+  IntegrityConfig integrity_;
   std::uint64_t seed_;
   StageProbe* probe_;
   std::int64_t session_ = 0;
-  CameraModel camera_;
+  CalibrationKeeper calibration_;
   std::optional<ImageDecoder> decoder_;
+  std::optional<ImageJudge> judge_;
   std::optional<VisualOdometry> estimator_;
-  LossCounter losses_;
   vo_motion_t motion_{};
   bool fresh_ = false;
 };

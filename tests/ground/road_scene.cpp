@@ -137,6 +137,7 @@ void script_vo(const std::vector<Se3>& poses, int k, const VoScript& script, VoO
   vo->seq = k;
   vo->capture_us = 100'000LL * k + 1'000'000;
   vo->prev_seq = k - 1;
+  vo->interval_s = 0.1;
   vo->status = k < script.first_ok_frame ? VoStatus::kInitializing : VoStatus::kOk;
   if (vo->status != VoStatus::kOk) return;
   const Se3 T_cam_world = poses[static_cast<std::size_t>(k)].inverse();

@@ -113,7 +113,7 @@ TEST(Replay, RefusesARepeatedImage) {
   events.insert(events.begin() + 16, events[15]);
   const Outcome outcome = run(events);
   EXPECT_EQ(outcome.num_refused, 1);
-  EXPECT_EQ(outcome.first_refusal, "frame 14: image came twice");
+  EXPECT_EQ(outcome.first_refusal, "frame 14: the image was received before");
 }
 
 TEST(Replay, SaysWhenTimeRunsBackwards) {

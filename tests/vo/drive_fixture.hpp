@@ -37,8 +37,14 @@ class Drive {
     const RenderedImage image = scene_.render(T_world_cam, noise_std_grey, ++noise_seed_);
     return show(image);
   }
-  const VoOutput& show(const RenderedImage& image) {
-    VoInput input{1'000'000 + 100'000 * next_, next_, image.view()};
+  const VoOutput& show(const RenderedImage& image, VoReason unusable = VoReason::kNone) {
+    VoInput input;
+    input.capture_us = 1'000'000 + 100'000 * next_;
+    input.seq = next_;
+    input.image = image.view();
+    input.interval_s = 0.1 * static_cast<double>(next_ - last_shown_);
+    input.unusable = unusable;
+    last_shown_ = next_;
     ++next_;
     return show(input);
   }
@@ -61,6 +67,7 @@ class Drive {
   NullProbe probe_;
   unsigned noise_seed_ = 100;
   std::int64_t next_ = 0;
+  std::int64_t last_shown_ = -1;
   const VoOutput* last_ = nullptr;
   std::vector<Result> results_;
 };

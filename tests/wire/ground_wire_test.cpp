@@ -152,7 +152,7 @@ TEST(GroundWire, TheMessageNamesTheCuesOfTheTable) {
 
 TEST(GroundWire, RefusesAMotionThatIsNone) {
   EXPECT_EQ("ego motion: unknown status", refused_ego([](auto* m) { m->status = 6; }));
-  EXPECT_EQ("ego motion: unknown reason", refused_ego([](auto* m) { m->reason = 12; }));
+  EXPECT_EQ("ego motion: unknown reason", refused_ego([](auto* m) { m->reason = 27; }));
   EXPECT_EQ("ego motion: a pose is not a pose",
             refused_ego([](auto* m) { m->q_world_cam[3] = 2; }));
   EXPECT_EQ("ego motion: not a covariance",

@@ -147,7 +147,7 @@ TEST(ImageWire, NeedsASequenceNumber) {
               m->metadata.clear();
             }));
   EXPECT_EQ(none, refusal(grey_message(), [](image_t* m) { set_metadata(m, "sec", Bytes(8)); }));
-  EXPECT_EQ("image sequence number is not 8 bytes",
+  EXPECT_EQ("image metadata 'seq' or 'session' is not 8 bytes",
             refusal(grey_message(), [](image_t* m) { set_metadata(m, "seq", Bytes(4)); }));
 }
 

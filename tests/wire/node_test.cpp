@@ -2,6 +2,7 @@
 // with images.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -61,23 +62,37 @@ TEST_F(VoNodeTest, TakesTheFirstCalibrationAndRefusesADifferentOne) {
   EXPECT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 1'000'000)))
       << "the calibration is repeated once a second";
   other.fx_px = 251.0;
-  EXPECT_STREQ("calibration differs from the first one; restart to use it",
+  EXPECT_STREQ("calibration contradicts the earlier ones",
                node_->take_calibration(to_wire(other, 0)));
 }
 
 TEST_F(VoNodeTest, RefusesWrongImagesAndGoesOn) {
   ASSERT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0)));
-  EXPECT_EQ("", take(image_bytes(1)));
-  EXPECT_EQ("image size differs from the calibration", take(image_bytes(2, 160)));
+  for (std::int64_t seq = 1; seq <= 3; ++seq) EXPECT_EQ("", take(image_bytes(seq)));
+  EXPECT_EQ("image size differs from the calibration", take(image_bytes(4, 160)));
   EXPECT_EQ(nullptr, node_->motion());
   EXPECT_EQ("not an image_t", take(Bytes(100)));
-  EXPECT_EQ("", take(image_bytes(3)));
-  EXPECT_EQ("image came twice", take(image_bytes(3)));
+  EXPECT_EQ("", take(image_bytes(5)));
+  EXPECT_EQ("the image was received before", take(image_bytes(5)));
   EXPECT_EQ(nullptr, node_->motion());
-  EXPECT_EQ("", take(image_bytes(7)));
-  EXPECT_EQ(3, node_->num_lost());
-  EXPECT_EQ("", take(image_bytes(0))) << "VO handles a source that restarts";
-  EXPECT_NE(nullptr, node_->motion());
+  EXPECT_EQ("", take(image_bytes(9)));
+  EXPECT_EQ(1 + 3, node_->num_lost()) << "images 4, 6, 7 and 8";
+}
+
+TEST_F(VoNodeTest, FollowsASourceThatBeginsAnew) {
+  ASSERT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0)));
+  for (std::int64_t seq = 100; seq <= 105; ++seq) EXPECT_EQ("", take(image_bytes(seq)));
+  EXPECT_EQ(104, node_->motion()->prev_seq);
+  EXPECT_NEAR(0.1, node_->motion()->interval_s, 1e-9);
+  EXPECT_NE("", take(image_bytes(0)));
+  EXPECT_NE("", take(image_bytes(1)));
+  EXPECT_EQ("", take(image_bytes(2))) << "three images agree among themselves";
+  EXPECT_EQ(2, node_->motion()->seq);
+  EXPECT_EQ(-1, node_->motion()->prev_seq) << "the motion since the earlier images is not known";
+  EXPECT_TRUE(std::isnan(node_->motion()->interval_s));
+  EXPECT_EQ("", take(image_bytes(3)));
+  EXPECT_EQ(2, node_->motion()->prev_seq);
+  EXPECT_NEAR(0.1, node_->motion()->interval_s, 1e-9);
 }
 
 class GroundNodeTest : public testing::Test {
@@ -92,14 +107,18 @@ class GroundNodeTest : public testing::Test {
 
   void calibrate() { ASSERT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0))); }
   void image(std::int64_t seq) { EXPECT_EQ(nullptr, node_->take_image(image_bytes(seq))) << seq; }
-  void motion(std::int64_t seq) {
+  static vo_motion_t sample_motion(std::int64_t seq, std::int64_t session = 0) {
     vo_motion_t message;
     to_wire(test::sample_vo_output(), &message);
     message.seq = seq;
+    message.session = session;
     message.prev_seq = seq - 1;
     message.utime = seq * 100'000;
     message.num_window = 0;
-    EXPECT_EQ(nullptr, node_->take_motion(message)) << seq;
+    return message;
+  }
+  void motion(std::int64_t seq) {
+    EXPECT_EQ(nullptr, node_->take_motion(sample_motion(seq))) << seq;
   }
   // Sequence numbers of the results so far; negative where the image was missing.
   std::vector<std::int64_t> results() const {
@@ -196,6 +215,38 @@ TEST_F(GroundNodeTest, CountsAMotionThatNeverCame) {
   motion(2);
   motion(4);  // its previous image is 3
   EXPECT_EQ(1, node_->num_lost());
+}
+
+TEST_F(GroundNodeTest, RefusesMotionsThatComeTwiceOrOutOfOrder) {
+  calibrate();
+  for (std::int64_t seq = 1; seq <= 3; ++seq) motion(seq);
+  EXPECT_STREQ("VO motion came twice or out of order", node_->take_motion(sample_motion(3)));
+  EXPECT_STREQ("VO motion came twice or out of order", node_->take_motion(sample_motion(2)));
+  motion(4);
+}
+
+TEST_F(GroundNodeTest, FollowsARestartedSenderAfterThreeMotions) {
+  calibrate();
+  for (std::int64_t seq = 100; seq <= 102; ++seq) motion(seq);
+  for (std::int64_t seq = 5; seq <= 8; ++seq) {
+    const char* why = node_->take_motion(sample_motion(seq, 77));
+    if (seq < 7) {
+      EXPECT_STREQ("VO motion comes from a second sender", why);
+    } else {
+      EXPECT_EQ(nullptr, why) << seq;
+    }
+  }
+  node_->expire();
+  EXPECT_EQ(8, results_.back().seq);
+}
+
+TEST_F(GroundNodeTest, ASecondSenderChangesNothing) {
+  calibrate();
+  for (std::int64_t seq = 1; seq <= 9; ++seq) {
+    motion(seq);
+    EXPECT_STREQ("VO motion comes from a second sender",
+                 node_->take_motion(sample_motion(seq + 50, 77)));
+  }
 }
 
 TEST_F(GroundNodeTest, TakesDetectionsUntilTheirTurnIsOver) {

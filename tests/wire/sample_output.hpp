@@ -27,6 +27,9 @@ inline VoOutput sample_vo_output() {
   o.scale_epoch = 3;
   o.scale_carry_std = 0.05;
   o.prev_seq = 41;
+  o.interval_s = 0.104;
+  o.session = 17;
+  o.capture_mono_us = 987'654'321;
   o.T_prev_cam = sample_pose(1.0);
   o.cov_prev_cam = sample_covariance<6>();
   for (std::size_t i = 0; i < kMaxWindowPoses; ++i)

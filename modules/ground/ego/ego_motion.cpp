@@ -8,8 +8,6 @@
 
 namespace plumb {
 namespace {
-constexpr double kMicro = 1e-6;
-
 bool turns(VoStatus status) {
   return status == VoStatus::kOk || status == VoStatus::kStandstill ||
          status == VoStatus::kRotationOnly || status == VoStatus::kCoasting;
@@ -44,9 +42,10 @@ void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
   *out = EgoOutput{};
   out->status = status_of(vo, scale);
   out->reason = vo.reason;
-  out->log_scale = scale.log_scale;
-  out->log_scale_std = scale.known ? std::sqrt(scale.var) : kNan;
-  out->accel_forward_m_s2 = out->accel_forward_std_m_s2 = kNan;
+  if (scale.known) {
+    out->log_scale = scale.log_scale;
+    out->log_scale_std = std::sqrt(scale.var);
+  }
 
   num_coasted_ = vo.status == VoStatus::kCoasting ? num_coasted_ + 1 : 0;
   const bool moved = turns(vo.status) && vo.prev_seq >= 0;
@@ -63,7 +62,7 @@ void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
   } else {
     speed_.reset();
   }
-  remember(vo);
+  last_seq_ = vo.seq;
   out->T_world_cam = T_world_anchor_;
   out->cov_world_cam = cov_world_anchor_;
   out->distance_m = distance_m_;
@@ -93,9 +92,12 @@ Matrix6d EgoMotion::motion_cov(const VoOutput& vo, double metres_per_vo) const {
 
 /// Updates T_anchor_cam, or finds that the path from the anchor is lost.
 void EgoMotion::follow_anchor(const VoOutput& vo, bool moved) {
-  if (!anchored_) {
+  if (!anchored_ || vo.prev_seq < 0) {
+    // How the camera moved to the first image of another time line is not known.
+    if (anchored_) ++reset_counter_;
     anchored_ = true;
     anchor_seq_ = vo.seq;
+    T_anchor_cam_ = Se3{};
     path_known_ = true;
     return;
   }
@@ -149,8 +151,11 @@ void EgoMotion::integrate(const VoOutput& vo, const ScaleEstimate& scale, const 
 }
 
 void EgoMotion::write_rates(const VoOutput& vo, const Eigen::Vector3d& normal_cam, EgoOutput* out) {
-  const double dt_s = interval_s(vo);
-  if (!(dt_s > 0.0)) return;
+  const double dt_s = vo.interval_s;
+  if (!(dt_s > 0.0)) {
+    speed_.reset();
+    return;
+  }
   const Eigen::Matrix3d R_ground_cam = rotation_ground_cam(normal_cam);
   const Eigen::Matrix3d R_ground_prev = R_ground_cam * out->T_prev_cam.R.transpose();
   out->velocity_ground_m_s = R_ground_prev * out->T_prev_cam.t / dt_s;
@@ -172,21 +177,6 @@ void EgoMotion::write_rates(const VoOutput& vo, const Eigen::Vector3d& normal_ca
   if (!speed_.observable()) return;
   out->accel_forward_m_s2 = speed_.accel_m_s2();
   out->accel_forward_std_m_s2 = speed_.accel_std_m_s2();
-}
-
-/// Time between this image and the previous one; 0 when it is not known.
-double EgoMotion::interval_s(const VoOutput& vo) const {
-  for (const Stamp& stamp : stamps_) {
-    if (stamp.seq != vo.prev_seq || stamp.seq < 0) continue;
-    return kMicro * static_cast<double>(vo.capture_us - stamp.capture_us);
-  }
-  return 0.0;
-}
-
-void EgoMotion::remember(const VoOutput& vo) {
-  stamps_[next_stamp_] = {vo.seq, vo.capture_us};
-  next_stamp_ = (next_stamp_ + 1) % stamps_.size();
-  last_seq_ = vo.seq;
 }
 
 }  // namespace plumb

@@ -1,5 +1,7 @@
 /// Metric motion and the integrated pose, from VO's motion and the ground plane's scale.
 ///
+/// Velocity and rates need the interval that VO vouches for, and are NaN without it.
+///
 /// Frames whose motion or scale is not known yet are not lost. The pose stays anchored at the last
 /// frame that has one. As soon as both are known it is carried forward from the anchor, over VO's
 /// refined window as far as that reaches.
@@ -11,7 +13,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 
 #include "modules/ground/ego/speed_filter.hpp"
@@ -37,21 +38,12 @@ class EgoMotion {
               EgoOutput* out);
 
  private:
-  struct Stamp {
-    std::int64_t seq = -1;
-    std::int64_t capture_us = 0;
-  };
-
   [[nodiscard]] Matrix6d motion_cov(const VoOutput& vo, double metres_per_vo) const;
-  [[nodiscard]] double interval_s(const VoOutput& vo) const;
-  void remember(const VoOutput& vo);
   void follow_anchor(const VoOutput& vo, bool moved);
   void integrate(const VoOutput& vo, const ScaleEstimate& scale, const EgoOutput& out);
   void write_rates(const VoOutput& vo, const Eigen::Vector3d& normal_cam, EgoOutput* out);
 
   EgoConfig config_;
-  std::array<Stamp, 16> stamps_{};
-  std::size_t next_stamp_ = 0;
   std::int64_t last_seq_ = -1;
 
   // Newest frame with a pose in world, and the motion from there to now, [vo].

@@ -94,31 +94,36 @@ struct GroundInput {
 struct PlaneOutput {
   GroundStatus status = GroundStatus::kInvalid;
   GroundReason reason = GroundReason::kNone;
-  Eigen::Vector3d normal_cam = Eigen::Vector3d::Zero();  ///< unit, down; kOk, kHeld only
-  double height_m = 0.0;                                 ///< kOk, kHeld only
-  double pitch_rad = 0.0;                                ///< nose DOWN positive (ISO 8855)
-  double roll_rad = 0.0;                                 ///< right side down positive
-  Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();         ///< of (pitch, roll, ln height)
+  // The following are NaN unless kOk or kHeld.
+  Eigen::Vector3d normal_cam = Eigen::Vector3d::Constant(kNan);  ///< unit, down
+  double height_m = kNan;
+  double pitch_rad = kNan;                                ///< nose DOWN positive (ISO 8855)
+  double roll_rad = kNan;                                 ///< right side down positive
+  Eigen::Matrix3d cov = Eigen::Matrix3d::Constant(kNan);  ///< of (pitch, roll, ln height)
   CueReports cues{};
 };
 
+/// What is not measured is NaN, never 0.
 struct EgoOutput {
   EgoStatus status = EgoStatus::kLost;
   VoReason reason = VoReason::kNone;
   std::int32_t reset_counter = 0;
-  Se3 T_prev_cam;                            ///< [m]
-  Matrix6d cov_prev_cam = Matrix6d::Zero();  ///< of (t, right-perturbation of R)
-  Eigen::Vector3d velocity_ground_m_s = Eigen::Vector3d::Zero();
-  double speed_std_m_s = 0.0;
-  Eigen::Vector3d rate_ground_rad_s = Eigen::Vector3d::Zero();  ///< z: yaw rate, left positive
-  double yaw_rate_std_rad_s = 0.0;
-  double accel_forward_m_s2 = 0.0;  ///< NaN when not observable
-  double accel_forward_std_m_s2 = 0.0;
+  Se3 T_prev_cam;                                    ///< [m]
+  Matrix6d cov_prev_cam = Matrix6d::Constant(kNan);  ///< of (t, right perturbation of R)
+  Eigen::Vector3d velocity_ground_m_s = Eigen::Vector3d::Constant(kNan);
+  double speed_std_m_s = kNan;
+  Eigen::Vector3d rate_ground_rad_s =
+      Eigen::Vector3d::Constant(kNan);  ///< z: yaw rate, left positive
+  double yaw_rate_std_rad_s = kNan;
+  double accel_forward_m_s2 = kNan;  ///< NaN when not observable, too
+  double accel_forward_std_m_s2 = kNan;
   Se3 T_world_cam;                            ///< [m]
-  Matrix6d cov_world_cam = Matrix6d::Zero();  ///< of (t in world, right-perturbation of R)
+  Matrix6d cov_world_cam = Matrix6d::Zero();  ///< of (t in world, right perturbation of R)
   double distance_m = 0.0;
-  double log_scale = 0.0;  ///< ln(metres per [vo])
-  double log_scale_std = 0.0;
+  double log_scale = kNan;  ///< ln(metres per [vo])
+  double log_scale_std = kNan;
+
+  EgoOutput() { T_prev_cam.t.setConstant(kNan); }
 };
 
 struct GroundOutput {

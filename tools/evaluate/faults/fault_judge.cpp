@@ -26,15 +26,16 @@ struct Verdict {
   double error_m_s = 0.0;
 };
 
+/// Whether the message gives a speed. A speed that is not measured is NaN.
 bool is_valid(const ego_motion_t& ego) {
-  return ego.status != ego_motion_t::STATUS_INITIALIZING && ego.status != ego_motion_t::STATUS_LOST;
+  return ego.status != ego_motion_t::STATUS_INITIALIZING &&
+         ego.status != ego_motion_t::STATUS_LOST && !std::isnan(ego.velocity_ground_m_s[0]);
 }
 
 Verdict judge(const Shot& shot, const ego_motion_t& ego) {
   Verdict verdict{1e-6 * static_cast<double>(shot.true_us), shot.faulty, is_valid(ego)};
   if (!verdict.valid) return verdict;
   verdict.error_m_s = std::abs(ego.velocity_ground_m_s[0] - shot.true_speed_m_s);
-  // Written so that a speed that is not a number is wrong.
   verdict.wrong = !(verdict.error_m_s <= std::max(3.0 * ego.speed_std_m_s, kLeastError_m_s));
   return verdict;
 }
