@@ -40,7 +40,7 @@ Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, S
       mount_(without_file(config.mount)),
       objects_(config.detections, config.objects, config.ground,
                [this](const objects_t& objects) { take_objects(objects); }),
-      can_(config.can),
+      can_(config.can, config.vehicle),
       can_sink_(can_sink),
       sink_(std::move(sink)),
       objects_sink_(std::move(objects_sink)) {}

@@ -10,6 +10,7 @@
 #include "modules/detector/detector_config.hpp"
 #include "modules/ground/types/ground_config.hpp"
 #include "modules/ground_paper/paper_config.hpp"
+#include "modules/integrity/plausibility_config.hpp"
 #include "modules/mount/mount_config.hpp"
 #include "modules/objects/objects_config.hpp"
 #include "modules/vo/vo_config.hpp"
@@ -26,6 +27,7 @@ struct PlumbConfig {
   PaperConfig ground_paper;
   MountConfig mount;
   ObjectsConfig objects;
+  PlausibilityConfig vehicle;
   CanConfig can;
 
   template <typename Config, typename Visit>
@@ -40,6 +42,7 @@ struct PlumbConfig {
     PaperConfig::visit(c.ground_paper, field);
     MountConfig::visit(c.mount, field);
     ObjectsConfig::visit(c.objects, field);
+    PlausibilityConfig::visit(c.vehicle, field);
     CanConfig::visit(c.can, field);
   }
 };

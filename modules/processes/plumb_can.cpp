@@ -48,10 +48,10 @@ struct Sinks final : CanSink {
 
 class CanProcess {
  public:
-  CanProcess(Process& process, const CanConfig& config, Sinks& sinks)
+  CanProcess(Process& process, const PlumbConfig& config, Sinks& sinks)
       : process_(process),
         sinks_(sinks),
-        output_(config),
+        output_(config.can, config.vehicle),
         plane_(process.bus(), kGroundPlane, Input::kPeriodic,
                [this](const ground_plane_t& message) {
                  return output_.on_ground_plane(message, monotonic_us());
@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
         .check();
     (void)can_addresses(config.can);  // refused before the trace file is created
     sinks.open(interface, path);
-    can.emplace(process, config.can, sinks);
+    can.emplace(process, config, sinks);
   });
   if (sinks.trace && !sinks.trace->flush() && code == 0) {
     plumb::log_line("%s", sinks.trace->error().c_str());

@@ -123,8 +123,8 @@ TEST_F(CanProgramLive, SendsWhatItHearsThenNotAvailableAndStopsCleanly) {
   ASSERT_EQ(speeds.size(), 20U);
   for (std::size_t i = 0; i < speeds.size(); ++i) EXPECT_EQ(speeds[i], static_cast<double>(i));
   EXPECT_TRUE(std::isnan(motions.back()["EgoMotion_Validity"])) << "stale at the end";
-  ASSERT_FALSE(read(trace.path(), test::default_messages()[7]).empty());
-  EXPECT_EQ(read(trace.path(), test::default_messages()[7]).back()["Status_NumRejected"], 2.0);
+  ASSERT_FALSE(read(trace.path(), test::message_named("Status")).empty());
+  EXPECT_EQ(read(trace.path(), test::message_named("Status")).back()["Status_NumRejected"], 2.0);
 }
 
 TEST_F(CanProgramLive, GoesOnWithTheTraceWhenThereIsNoSuchInterface) {
