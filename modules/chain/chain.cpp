@@ -95,7 +95,9 @@ void Chain::take_image(std::span<const std::uint8_t> bytes) {
 }
 
 const char* Chain::take_motion(const vo_motion_t& motion) {
-  const char* refused = ground_.take_motion(motion);
+  motion_ = motion;
+  if (motion_.capture_mono_us == 0) motion_.capture_mono_us = motion_.utime;
+  const char* refused = ground_.take_motion(motion_);
   ground_.expire();  // The image of a motion never comes later in a log.
   ground_timer_.end();
   return refused;
