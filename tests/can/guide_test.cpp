@@ -12,6 +12,7 @@
 #include "plumb_paths.hpp"
 #include "tests/can/gate_fixture.hpp"
 #include "tests/can/receiver.h"
+#include "tests/can/sums.h"
 
 extern "C" bool receiver_is_fresh(const Receiver* r, std::uint32_t now_ms);
 
