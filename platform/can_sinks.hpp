@@ -22,8 +22,7 @@ class CanSinks final : public CanSink {
   /// Opens what has a name. `offset_us` turns the clock of send() into calendar time. Returns why
   /// the trace cannot be written; empty without a failure.
   const std::string& open(const std::string& interface, const std::string& trace_path,
-                          std::int64_t offset_us,
-                          SocketCan::Opener opener = &SocketCan::open_raw);
+                          std::int64_t offset_us, SocketCan::Opener opener = &SocketCan::open_raw);
 
   /// Before every burst.
   void service(std::int64_t now_us);
@@ -37,6 +36,7 @@ class CanSinks final : public CanSink {
   /// Frames that the trace had no room for.
   [[nodiscard]] std::int64_t num_dropped() const { return trace_ ? trace_->num_dropped() : 0; }
   [[nodiscard]] const std::string& trace_error() const;
+  [[nodiscard]] bool has_bus() const { return bus_.has_value(); }
   /// Whether no frame can be written anywhere any more.
   [[nodiscard]] bool is_useless() const { return !bus_ && !trace_error().empty(); }
   /// What is wrong, the bus first; empty while all is well.

@@ -93,8 +93,8 @@ void print(const char* format, std::va_list arguments, std::int64_t num_suppress
   std::vsnprintf(line.data(), line.size(), format, arguments);
   std::array<char, 640> text{};
   const int n = num_suppressed > 0
-                    ? std::snprintf(text.data(), text.size(), "%s: %s (%lld more like it)\n", g_name,
-                                    line.data(), static_cast<long long>(num_suppressed))
+                    ? std::snprintf(text.data(), text.size(), "%s: %s (%lld more like it)\n",
+                                    g_name, line.data(), static_cast<long long>(num_suppressed))
                     : std::snprintf(text.data(), text.size(), "%s: %s\n", g_name, line.data());
   write_line(text.data(), std::min(n, static_cast<int>(text.size()) - 1));
 }

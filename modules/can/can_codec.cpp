@@ -22,7 +22,8 @@ std::uint64_t to_raw(const SignalLayout& layout, double physical) {
 }
 
 bool is_sendable(const SignalLayout& layout, double physical) {
-  return std::isfinite(physical) && !(layout.has_sna && to_raw(layout, physical) == sna_raw(layout));
+  return std::isfinite(physical) &&
+         !(layout.has_sna && to_raw(layout, physical) == sna_raw(layout));
 }
 
 double to_physical(const SignalLayout& layout, std::uint64_t raw) {

@@ -19,8 +19,8 @@ struct FrameFields {
   std::uint8_t object_index = 0;   ///< in the list of objects
 };
 
-/// Returns the nearest raw value. NaN, infinity and a value beyond the range become "not available",
-/// or 0 where the signal has no such value; see Beyond for signals that stay or wrap.
+/// Returns the nearest raw value. NaN, infinity and a value beyond the range become "not
+/// available", or 0 where the signal has no such value; see Beyond for signals that stay or wrap.
 [[nodiscard]] std::uint64_t to_raw(const SignalLayout& layout, double physical);
 /// Returns whether the value reaches a receiver.
 [[nodiscard]] bool is_sendable(const SignalLayout& layout, double physical);

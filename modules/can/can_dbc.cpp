@@ -186,7 +186,8 @@ std::string database_comment(const CanConfig& config, const Messages& messages) 
       "message is protected by AUTOSAR E2E profile 11A (CRC in byte 0, alive counter in byte 1). "
       "An image taken more than ",
       number_text(config.stale_s),
-      " s ago (configurable) is sent as not available within one cycle; the mount check, which speaks "
+      " s ago (configurable) is sent as not available within one cycle; the mount check, which "
+      "speaks "
       "once a second, when it is older than 3 s. The signals of objects are multiplexed by the "
       "object's index. Load of a bus of 500 kbit/s at 10 camera frames a second, with the most "
       "stuff bits: ",

@@ -64,7 +64,7 @@ void CanGate::on_ego_motion(const CanSample& ego, std::int64_t now_us) {
 }
 
 CanGate::Entry* CanGate::take(const CanSample& half, std::int64_t now_us) {
-  if (!is_fresh(half, now_us)) ++counters_.num_late;
+  if (judge_age(now_us, half.capture_mono_us, stale_us_) == AgeState::kTooOld) ++counters_.num_late;
   return entry_of(half, now_us);
 }
 

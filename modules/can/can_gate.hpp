@@ -9,8 +9,8 @@
 ///   The ground plane and the ego motion of one `seq` become one entry of a queue. Each tick takes
 ///   at most one entry, whose messages leave in one burst, and repeats the messages that are due.
 /// Mount:
-///   It belongs to no frame. Each one is sent once, at the next tick, and repeated by its cycle. Its
-///   age is counted from its receipt: it tells of minutes.
+///   It belongs to no frame. Each one is sent once, at the next tick, and repeated by its cycle.
+///   Its age is counted from its receipt: it tells of minutes.
 /// Time:
 ///   [us] of one steady clock of the caller's choice, which is that of capture_mono_us; in a replay
 ///   the log's own clock.
@@ -38,7 +38,7 @@ struct CanCounters {
   std::int64_t num_repeated = 0;    ///< halves that had been taken already: ignored
   std::int64_t num_overflowed = 0;  ///< entries dropped because the queue was full
   std::int64_t num_passed = 0;      ///< entries passed over because they had become too old
-  std::int64_t num_late = 0;        ///< halves that were too old, or of unknown age, on receipt
+  std::int64_t num_late = 0;        ///< halves that were too old on receipt
   std::int64_t num_rejected = 0;    ///< told by the caller: messages that broke their contract
   std::int64_t num_unsent = 0;      ///< told by the caller: frames that the bus did not take
 };

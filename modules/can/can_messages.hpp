@@ -50,7 +50,8 @@ inline constexpr std::array kMessageRows = std::to_array<MessageRow>({
     {"OdometryDistance", "odometry_distance", 6, 7, 20, CanTrigger::kCameraFrame,
      "Integrated pose, third part. Also sent at once for every new camera frame."},
     {"Frame", "frame", 10, 15, 20, CanTrigger::kCameraFrame,
-     "Age of a camera frame, and which of its values were not believed. Also sent at once for every "
+     "Age of a camera frame, and which of its values were not believed. Also sent at once for "
+     "every "
      "new camera frame, last of its burst."},
     {"Status", "status", 7, 8, 100, CanTrigger::kNone, "State of the chain, reasons and counters."},
     {"Info", "info", 8, 9, 1000, CanTrigger::kNone, "Versions and uptime."},

@@ -22,7 +22,7 @@ bool CanObjectGate::is_fresh(const CanObjects& list, std::int64_t now_us) const 
 }
 
 void CanObjectGate::on_objects(const CanObjects& objects, std::int64_t now_us) {
-  if (!is_fresh(objects, now_us)) ++num_late_;
+  if (judge_age(now_us, objects.capture_mono_us, stale_us_) == AgeState::kTooOld) ++num_late_;
   if (!pending_.push(objects)) ++num_overflowed_;
 }
 

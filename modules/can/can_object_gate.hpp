@@ -8,8 +8,8 @@
 ///   Nothing is sent before the first list: a system without plumb-objects has no object messages
 ///   on its bus.
 /// Age:
-///   As CanGate: from the capture of the image that was searched. Of a list that is too old only its
-///   own message is sent, as "not available"; lists that wait are then passed over.
+///   As CanGate: from the capture of the image that was searched. Of a list that is too old only
+///   its own message is sent, as "not available"; lists that wait are then passed over.
 /// Time:
 ///   As CanGate, whose ticks these are.
 /// Memory:
@@ -49,7 +49,7 @@ class CanObjectGate {
   [[nodiscard]] bool idle() const { return pending_.empty(); }
   /// Lists dropped because the queue was full, or passed over because they had become too old.
   [[nodiscard]] std::int64_t num_overflowed() const { return num_overflowed_; }
-  /// Lists that were too old, or of unknown age, on receipt.
+  /// Lists that were too old on receipt.
   [[nodiscard]] std::int64_t num_late() const { return num_late_; }
 
  private:

@@ -35,8 +35,8 @@ enum class ByteOrder : std::uint8_t { kIntel, kMotorola };
 /// What becomes of a value beyond the range of its signal.
 enum class Beyond : std::uint8_t {
   kDrops,  ///< it is "not available"
-  kStays,         ///< a count or a time that stays at the top of the range, as its comment says
-  kWraps,         ///< a position or a length modulo the range
+  kStays,  ///< a count or a time that stays at the top of the range, as its comment says
+  kWraps,  ///< a position or a length modulo the range
 };
 
 /// Where a signal lies in its message, and how it scales.
@@ -108,9 +108,9 @@ inline constexpr std::size_t kNumGroups = 3;
 /// What the validity of a signal's group owes to it.
 enum class Need : std::uint8_t {
   kNone,
-  kWanted,       ///< without it the group is degraded at best; without all of them it is invalid
-  kEssential,    ///< without it the group is invalid
-  kIsValidity,   ///< it carries that validity
+  kWanted,      ///< without it the group is degraded at best; without all of them it is invalid
+  kEssential,   ///< without it the group is invalid
+  kIsValidity,  ///< it carries that validity
 };
 
 /// Where a value comes from, and when it is available.

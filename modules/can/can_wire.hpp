@@ -63,7 +63,7 @@ class CanOutput {
   [[nodiscard]] std::int64_t num_objects_overflowed() const {
     return object_gate_.num_overflowed();
   }
-  /// Messages whose image was too old on receipt, or of unknown age.
+  /// Messages whose image was too old on receipt.
   [[nodiscard]] std::int64_t num_late() const {
     return gate_.counters().num_late + object_gate_.num_late();
   }

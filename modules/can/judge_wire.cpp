@@ -106,7 +106,8 @@ VehicleMotion MotionJudge::motion_of(const ego_motion_t& m) {
 
 void MotionJudge::count_resets(const ego_motion_t& m) {
   // A counter that goes back belongs to a sender that began anew.
-  const bool is_anew = has_pose_ && (interval_.is_new_session() || m.reset_counter < reset_counter_);
+  const bool is_anew =
+      has_pose_ && (interval_.is_new_session() || m.reset_counter < reset_counter_);
   const auto counted = static_cast<std::uint32_t>(m.reset_counter);
   const auto before = static_cast<std::uint32_t>(reset_counter_);
   reset_count_ += is_anew ? 1U : has_pose_ ? counted - before : counted;

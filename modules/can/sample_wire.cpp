@@ -71,8 +71,7 @@ void read_signals(const Source& source, const Messages& messages, SourceValues* 
 
 template <typename Source>
 void fill_sample(CanSource kind, const Source& source, GroupValidities validities,
-                 std::initializer_list<Group> groups, const Messages& messages,
-                 CanSample* sample) {
+                 std::initializer_list<Group> groups, const Messages& messages, CanSample* sample) {
   read_signals(source, messages, &sample->values);
   settle_values(kind, messages, &validities, &sample->values);
   sample->validity = CanValidity::kValid;

@@ -47,7 +47,8 @@ void save_mount_reference(const std::string& path, const MountReference& referen
   ConfigWriter writer;
   visit(out, writer);
   const std::string text =
-      "# Orientation of the camera on its vehicle. Written by plumb-ground; delete it after work on "
+      "# Orientation of the camera on its vehicle. Written by plumb-ground; delete it after work "
+      "on "
       "the camera.\n" +
       writer.sections();
   if (!replace_file(path, text)) throw InputError("cannot write " + path);

@@ -66,8 +66,11 @@ class CanProcess {
   }
 
   void tell(const char* trouble) {
-    log_line("%s", *trouble == '\0' ? "the CAN interface and the trace are well" : trouble);
-    if (*trouble == '\0') return process_.health().clear_condition();
+    if (*trouble == '\0') {
+      log_line("%s", sinks_.has_bus() ? "the CAN interface is up" : "the trace keeps up again");
+      return process_.health().clear_condition();
+    }
+    log_line("%s", trouble);
     process_.health().set_condition(HealthState::kDegraded, trouble);
     if (sinks_.is_useless()) throw std::runtime_error("nowhere left to write CAN frames to");
   }
@@ -109,7 +112,8 @@ int main(int argc, char** argv) {
   std::string interface, path;
   process.declare_options([&](CLI::App& app) {
     app.add_option("--interface", interface, "CAN interface, for example can0");
-    app.add_option("--trace", path, "file for every frame, as candump -L writes it; it is continued");
+    app.add_option("--trace", path,
+                   "file for every frame, as candump -L writes it; it is continued");
   });
 
   plumb::PlumbConfig config;

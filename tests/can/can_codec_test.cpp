@@ -85,7 +85,8 @@ TEST(CanCodec, AValueAboveTheRangeIsNotAvailableUnlessTheSignalStays) {
           << above;
     }
     EXPECT_EQ(sent_raw(message, i, kInf), absent(signal));
-    const bool says_so = std::string(message.signals[i].comment).find("tays at") != std::string::npos;
+    const bool says_so =
+        std::string(message.signals[i].comment).find("tays at") != std::string::npos;
     EXPECT_EQ(says_so, stays) << "the comment says that the value stays";
   });
   EXPECT_EQ(num_staying, 8);

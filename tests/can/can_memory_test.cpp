@@ -38,7 +38,7 @@ TEST(CanMemory, NothingIsAllocatedAfterConstruction) {
     plane.session = ego.session = i / 1000 + i % 3;  // some are refused
     plane.utime = ego.utime = i * 20'000;
     plane.capture_mono_us = ego.capture_mono_us = objects.capture_mono_us = i * 20'000 - 1'000;
-    ego.velocity_ground_m_s[0] = i % 40;  // some are not plausible
+    ego.velocity_ground_m_s[0] = i % 40;                  // some are not plausible
     plane.status = static_cast<std::int8_t>(i / 10 % 5);  // 4 is rejected
     ego.status = static_cast<std::int8_t>(i / 10 % 7);    // 6 is rejected
     output.advance(i * 20'000, sink);

@@ -66,8 +66,8 @@ TEST(CanSinks, SaysThatFramesAreMissingFromTheTraceAndThenNoMore) {
   EXPECT_STREQ(sinks.trouble(), "");
   for (int i = 0; i < 100'000; ++i) sinks.send(now_us, any_frame());
   sinks.service(now_us);
-  EXPECT_EQ(sinks.trouble(), path + ": too slow, " + std::to_string(sinks.num_dropped()) +
-                                 " frames are missing");
+  EXPECT_EQ(sinks.trouble(),
+            path + ": too slow, " + std::to_string(sinks.num_dropped()) + " frames are missing");
   EXPECT_FALSE(sinks.is_useless());
   now_us += 1'000'001;
   sinks.service(now_us);

@@ -173,8 +173,8 @@ CanValidity validity_in(const CanSample& sample, const char* signal) {
 TEST(CanWire, ASpeedThatIsNotMeasuredIsNotAvailableAndThePoseStays) {
   for (const std::int8_t status :
        {ego_motion_t::STATUS_OK, ego_motion_t::STATUS_SCALE_HELD, ego_motion_t::STATUS_COASTING}) {
-    for (double ego_motion_t::*std_m_s : {static_cast<double ego_motion_t::*>(nullptr),
-                                          &ego_motion_t::speed_std_m_s}) {
+    for (double ego_motion_t::*std_m_s :
+         {static_cast<double ego_motion_t::*>(nullptr), &ego_motion_t::speed_std_m_s}) {
       ego_motion_t m = make_ego();
       m.status = status;
       if (std_m_s == nullptr) {
@@ -190,9 +190,8 @@ TEST(CanWire, ASpeedThatIsNotMeasuredIsNotAvailableAndThePoseStays) {
       EXPECT_TRUE(std::isnan(value_of(ego, "EgoMotion_Standstill")));
       EXPECT_EQ(validity_in(ego, "EgoMotion_Validity"), CanValidity::kInvalid);
       EXPECT_EQ(value_of(ego, "OdomX_PosX"), 40.0);
-      EXPECT_EQ(validity_in(ego, "OdomX_Validity"), status == ego_motion_t::STATUS_OK
-                                                        ? CanValidity::kValid
-                                                        : CanValidity::kDegraded);
+      EXPECT_EQ(validity_in(ego, "OdomX_Validity"),
+                status == ego_motion_t::STATUS_OK ? CanValidity::kValid : CanValidity::kDegraded);
       EXPECT_EQ(ego.validity, CanValidity::kInvalid);
       EXPECT_TRUE(ego.has_values);
     }

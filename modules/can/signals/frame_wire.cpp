@@ -11,8 +11,8 @@ using Plane = JudgedPlane;
 using State = CanState;
 
 /// In the order of PlausibilityReason.
-constexpr std::array<const char*, 8> kDoubtNames = {"none",     "not_measured", "out_of_range",
-                                                    "too_fast", "recovering",   "interval",
+constexpr std::array<const char*, 8> kDoubtNames = {"none",         "not_measured", "out_of_range",
+                                                    "too_fast",     "recovering",   "interval",
                                                     "inconsistent", "dependent"};
 
 template <VehicleSignal kSignal, typename Source>

@@ -38,9 +38,7 @@ constexpr Signal kObjectListSignals[] = {
      {Framing::kFrameCounter},
      "Low 8 bits of the sequence number of the camera frame that was searched; messages with the "
      "same value belong together. All 256 values are counts, there is no value for not available."},
-    {"ObjList_NumLeftOut",
-     staying({24, 8}),
-     "",
+    {"ObjList_NumLeftOut", staying({24, 8}), "",
      when_valid<Counts>([](const Counts& c) { return c.num_left_out; }),
      "Objects of this frame that are not sent: further away than those that are, or without a "
      "place on the road; stays at 254."},
@@ -71,13 +69,15 @@ constexpr Signal kObjectPositionSignals[] = {
     {"Obj#_PosX",
      {24, 12, 0.05, -4.0},
      "m",
-     with_deviation("Obj#_PosXStd", when_received<Object>([](const Object& o) { return o.position_ground_m[0]; })),
+     with_deviation("Obj#_PosXStd",
+                    when_received<Object>([](const Object& o) { return o.position_ground_m[0]; })),
      "Middle of the object's footprint, along x of ISO 8855 (forward) from the road under the "
      "camera, forward positive."},
     {"Obj#_PosY",
      {36, 12, 0.05, -102.4},
      "m",
-     with_deviation("Obj#_PosYStd", when_received<Object>([](const Object& o) { return o.position_ground_m[1]; })),
+     with_deviation("Obj#_PosYStd",
+                    when_received<Object>([](const Object& o) { return o.position_ground_m[1]; })),
      "Middle of the object's footprint, along y of ISO 8855 (left) from the road under the "
      "camera, left positive."},
     {"Obj#_PosXStd",
@@ -110,16 +110,16 @@ constexpr Signal kObjectMotionSignals[] = {
      {24, 12, 0.05, -102.4},
      "m/s",
      with_deviation("Obj#_VelXStd", when_received<Object>([](const Object& o) {
-       return velocity_is_known(o) ? o.velocity_ground_m_s[0] : kNotAvailable;
-     })),
+                      return velocity_is_known(o) ? o.velocity_ground_m_s[0] : kNotAvailable;
+                    })),
      "Velocity of the object over ground, along x of ISO 8855 (forward), forward positive. Not "
      "available while the camera's own motion is not known."},
     {"Obj#_VelY",
      {36, 12, 0.02, -40.96},
      "m/s",
      with_deviation("Obj#_VelYStd", when_received<Object>([](const Object& o) {
-       return velocity_is_known(o) ? o.velocity_ground_m_s[1] : kNotAvailable;
-     })),
+                      return velocity_is_known(o) ? o.velocity_ground_m_s[1] : kNotAvailable;
+                    })),
      "Velocity of the object over ground, along y of ISO 8855 (left), to the left positive."},
     {"Obj#_VelXStd",
      {48, 8, 0.05},
@@ -150,7 +150,8 @@ constexpr Signal kObjectStateSignals[] = {
     {"Obj#_Id",
      {24, 8},
      "",
-     when_received<Object>([](const Object& o) { return modulo_255(static_cast<std::uint32_t>(o.track_id)); }),
+     when_received<Object>(
+         [](const Object& o) { return modulo_255(static_cast<std::uint32_t>(o.track_id)); }),
      "Number of the track, modulo 255; the same over frames."},
     {"Obj#_Class",
      {32, 4},
@@ -164,14 +165,10 @@ constexpr Signal kObjectStateSignals[] = {
      when_received<Object>([](const Object& o) { return o.status; }),
      "Whether this frame measured the object.",
      kObjectStatusNames},
-    {"Obj#_Age",
-     staying({39, 9, 0.1}),
-     "s",
+    {"Obj#_Age", staying({39, 9, 0.1}), "s",
      when_received<Object>([](const Object& o) { return o.age_s; }),
      "Time since the track began; stays at 51.0."},
-    {"Obj#_TimeToCollision",
-     staying({48, 9, 0.05}),
-     "s",
+    {"Obj#_TimeToCollision", staying({48, 9, 0.05}), "s",
      when_received<Object>([](const Object& o) {
        return std::isfinite(o.time_to_collision_s) ? o.time_to_collision_s : kNotAvailable;
      }),
