@@ -140,7 +140,7 @@ void ObjectsNode::process(const DetectionFrame& frame, const Ground* ground) {
   input.plane_measured = ground != nullptr && ground->plane_valid && objects_.plane == "measured";
   input.plane = input.plane_measured ? ground->plane : calibrated_plane();
 
-  Ground now;
+  Ground now;  // without a plane its capture time is not known
   if (ground != nullptr) now = *ground;
   now.seq = frame.seq;
   now.capture_us = frame.capture_us;
