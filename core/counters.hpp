@@ -48,6 +48,8 @@ class LossCounter {
     num_lost_ += static_cast<std::int64_t>(ahead - 1);
     return SeqStep::kGap;
   }
+  /// The next number begins another stream. What was lost stays counted.
+  void restart() { started_ = false; }
   [[nodiscard]] std::int64_t num_lost() const { return num_lost_; }
 
  private:

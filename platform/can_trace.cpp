@@ -1,6 +1,8 @@
 #include "platform/can_trace.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -54,10 +56,26 @@ bool parse_frame(const char* text, CanFrame* frame) {
 
 }  // namespace
 
-CanTraceWriter::CanTraceWriter(const std::string& path, const std::string& interface)
+CanTraceWriter::CanTraceWriter(const std::string& path, const std::string& interface,
+                               Existing existing)
     : path_(path), interface_(interface.substr(0, 15)), buffer_(kBufferBytes) {
-  fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  // Who continues a file runs live: a pipe without a reader is refused, not waited for.
+  const int kept = existing == Existing::kContinued ? O_APPEND | O_NONBLOCK : O_TRUNC;
+  fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | kept, 0644);
   if (fd_ < 0) fail("cannot create", errno);
+  if (fd_ >= 0 && existing == Existing::kContinued) end_partial_line();
+}
+
+/// A power cut may have left half a line, which would spoil the next one.
+void CanTraceWriter::end_partial_line() {
+  struct stat now {};
+  if (::fstat(fd_, &now) != 0 || !S_ISREG(now.st_mode) || now.st_size == 0) return;
+  const int reader = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  char last = '\n';
+  if (reader < 0) return;
+  const bool is_read = ::pread(reader, &last, 1, now.st_size - 1) == 1;
+  ::close(reader);
+  if (is_read && last != '\n') buffer_[used_++] = '\n';
 }
 
 CanTraceWriter::~CanTraceWriter() {
@@ -95,12 +113,21 @@ bool CanTraceWriter::flush() {
     const ssize_t n = ::write(fd_, buffer_.data() + done, used_ - done);
     if (n >= 0) {
       done += static_cast<std::size_t>(n);
+    } else if (errno == EAGAIN) {
+      if (gives_up_) break;
+      wait_for_room();
     } else if (errno != EINTR) {
       fail("cannot write", errno);
     }
   }
   used_ = 0;
   return error_.empty();
+}
+
+void CanTraceWriter::wait_for_room() const {
+  constexpr int kWaitMs = 50;
+  pollfd room{fd_, POLLOUT, 0};
+  (void)::poll(&room, 1, kWaitMs);
 }
 
 CanTraceReader::CanTraceReader(const std::string& path)

@@ -6,6 +6,7 @@
 ///   The writer owns one buffer; nothing grows after construction.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -21,8 +22,13 @@ namespace plumb {
 /// written; send() never throws.
 class CanTraceWriter final : public CanSink {
  public:
-  /// Creates or replaces the file; error() tells a failure. `interface` is the name on each line.
-  CanTraceWriter(const std::string& path, const std::string& interface);
+  /// What becomes of a file that exists.
+  enum class Existing { kReplaced, kContinued };
+
+  /// Creates, replaces or continues the file; error() tells a failure. `interface` is the name on
+  /// each line.
+  CanTraceWriter(const std::string& path, const std::string& interface,
+                 Existing existing = Existing::kReplaced);
   ~CanTraceWriter() override;
   CanTraceWriter(const CanTraceWriter&) = delete;
   CanTraceWriter& operator=(const CanTraceWriter&) = delete;
@@ -34,12 +40,16 @@ class CanTraceWriter final : public CanSink {
   void send(std::int64_t time_us, const CanFrame& frame) override;
   /// Writes the buffer to the file. Returns false after a failure.
   bool flush();
+  /// Ends a flush() that waits for a reader of a pipe; called from another thread.
+  void give_up() { gives_up_ = true; }
   /// "FILE: cannot write: No space left on device"; empty without a failure.
   [[nodiscard]] const std::string& error() const { return error_; }
   [[nodiscard]] std::int64_t num_frames() const { return num_frames_; }
 
  private:
   void fail(const char* what, int error_number);
+  void end_partial_line();
+  void wait_for_room() const;
 
   std::string path_;
   std::string interface_;
@@ -49,6 +59,7 @@ class CanTraceWriter final : public CanSink {
   std::int64_t num_frames_ = 0;
   std::vector<char> buffer_;
   std::size_t used_ = 0;
+  std::atomic<bool> gives_up_ = false;
 };
 
 /// Reads a trace line by line; empty lines are skipped.

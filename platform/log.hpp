@@ -1,5 +1,8 @@
 /// Log lines on stderr for people to read: "plumb-vo: ...".
 ///
+/// Waiting:
+///   Nothing here waits. A line that stderr does not take at once, because nobody reads the pipe,
+///   is dropped; the next line that is taken says how many were.
 /// Threads:
 ///   One thread logs; the functions share a table without locks.
 /// Memory:

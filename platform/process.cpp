@@ -54,7 +54,8 @@ struct Process::Impl {
 };
 
 Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) {
-  block_stop_signals();  // the loop receives a signal that arrives before its construction
+  block_stop_signals();           // the loop receives a signal that arrives before its construction
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of stderr that goes away ends nothing
   set_log_name(impl_->program.c_str());
   CLI::App& app = impl_->app;
   app.add_option("--lcm-url", impl_->url,

@@ -7,12 +7,23 @@
 namespace plumb {
 
 std::uint64_t to_raw(const SignalLayout& layout, double physical) {
-  if (std::isnan(physical)) return layout.has_sna ? max_raw(layout) + 1 : 0;
-  const double raw = std::round((physical - layout.offset) / layout.factor);
+  const std::uint64_t absent = layout.has_sna ? sna_raw(layout) : 0;
+  if (!std::isfinite(physical)) return absent;
+  double raw = std::round((physical - layout.offset) / layout.factor);
   const std::uint64_t top = max_raw(layout);
-  if (raw <= 0.0) return 0;
-  if (raw >= static_cast<double>(top)) return top;
+  if (layout.beyond == Beyond::kWraps) {
+    const double count = static_cast<double>(top) + 1.0;
+    raw -= count * std::floor(raw / count);
+    return raw < count ? static_cast<std::uint64_t>(raw) : 0;
+  }
+  if (raw < 0.0) return absent;
+  if (raw > static_cast<double>(top)) return layout.beyond == Beyond::kStays ? top : absent;
   return static_cast<std::uint64_t>(raw);
+}
+
+bool is_sendable(const SignalLayout& layout, double physical) {
+  return std::isfinite(physical) &&
+         !(layout.has_sna && to_raw(layout, physical) == sna_raw(layout));
 }
 
 double to_physical(const SignalLayout& layout, std::uint64_t raw) {

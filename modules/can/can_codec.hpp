@@ -19,9 +19,11 @@ struct FrameFields {
   std::uint8_t object_index = 0;   ///< in the list of objects
 };
 
-/// Returns the nearest raw value. It saturates at the ends of the range; NaN becomes "not
-/// available", or 0 where the signal has no such value.
+/// Returns the nearest raw value. NaN, infinity and a value beyond the range become "not
+/// available", or 0 where the signal has no such value; see Beyond for signals that stay or wrap.
 [[nodiscard]] std::uint64_t to_raw(const SignalLayout& layout, double physical);
+/// Returns whether the value reaches a receiver.
+[[nodiscard]] bool is_sendable(const SignalLayout& layout, double physical);
 /// Returns NaN for "not available".
 [[nodiscard]] double to_physical(const SignalLayout& layout, std::uint64_t raw);
 

@@ -18,7 +18,7 @@ struct CanMessageConfig {
 };
 
 struct CanConfig {
-  double stale_s = 0.3;
+  double stale_s = 0.25;
   double pair_wait_s = 0.1;
   std::string node = "PLB";
   bool extended_ids = false;
@@ -35,7 +35,7 @@ struct CanConfig {
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
     field("can.stale_s", c.stale_s, 0.05, 5.0,
-          "age of a frame's values from which on they are sent as not available");
+          "age of an image, since its capture, from which on its values are sent as not available");
     field("can.pair_wait_s", c.pair_wait_s, 0.01, 1.0,
           "wait for the other one of GROUND_PLANE and EGO_MOTION of the same frame");
     field("can.node", c.node, "name of the sender in the DBC, in front of the messages' names");

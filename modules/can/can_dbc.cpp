@@ -181,11 +181,13 @@ std::string database_comment(const CanConfig& config, const Messages& messages) 
       "CM_ \"Plumbline: metric ego-motion and ground plane of one forward camera. Axes and signs "
       "per ISO 8855: x forward, y left, z up, rotations right-handed; SI units. Every signal is "
       "unsigned with an offset. All ones means not available, unless its comment says otherwise; a "
-      "value outside the range is sent as the nearest end of the range, never wrapped. Every "
+      "value outside the range is not available, too, unless its comment names a modulus or says "
+      "that it stays. A value and its standard deviation are sent together or not at all. Every "
       "message is protected by AUTOSAR E2E profile 11A (CRC in byte 0, alive counter in byte 1). "
-      "An input older than ",
+      "An image taken more than ",
       number_text(config.stale_s),
-      " s (configurable) is sent as not available within one cycle; the mount check, which speaks "
+      " s ago (configurable) is sent as not available within one cycle; the mount check, which "
+      "speaks "
       "once a second, when it is older than 3 s. The signals of objects are multiplexed by the "
       "object's index. Load of a bus of 500 kbit/s at 10 camera frames a second, with the most "
       "stuff bits: ",

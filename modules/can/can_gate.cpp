@@ -14,10 +14,7 @@ namespace {
 bool is_valid(const CanSample* sample) {
   return sample != nullptr && sample->validity == CanValidity::kValid;
 }
-/// Valid or degraded: the values are sent.
-bool has_values(const CanSample* sample) {
-  return sample != nullptr && sample->validity != CanValidity::kInvalid;
-}
+bool has_values(const CanSample* sample) { return sample != nullptr && sample->has_values; }
 bool is_initializing(const CanSample* sample) {
   return sample != nullptr && sample->is_initializing;
 }
@@ -45,7 +42,7 @@ CanGate::CanGate(const CanConfig& config, const Messages& messages)
 }
 
 void CanGate::on_ground_plane(const CanSample& plane, std::int64_t now_us) {
-  Entry* entry = entry_of(plane.seq, now_us);
+  Entry* entry = take(plane, now_us);
   if (entry == nullptr || entry->has_plane) {
     ++counters_.num_repeated;
     return;
@@ -56,7 +53,7 @@ void CanGate::on_ground_plane(const CanSample& plane, std::int64_t now_us) {
 }
 
 void CanGate::on_ego_motion(const CanSample& ego, std::int64_t now_us) {
-  Entry* entry = entry_of(ego.seq, now_us);
+  Entry* entry = take(ego, now_us);
   if (entry == nullptr || entry->has_ego) {
     ++counters_.num_repeated;
     return;
@@ -64,6 +61,11 @@ void CanGate::on_ego_motion(const CanSample& ego, std::int64_t now_us) {
   entry->ego = ego;
   entry->has_ego = true;
   settle(*entry);
+}
+
+CanGate::Entry* CanGate::take(const CanSample& half, std::int64_t now_us) {
+  if (judge_age(now_us, half.capture_mono_us, stale_us_) == AgeState::kTooOld) ++counters_.num_late;
+  return entry_of(half, now_us);
 }
 
 void CanGate::on_mount(const CanSample& mount, std::int64_t now_us) {
@@ -76,23 +78,32 @@ void CanGate::settle(const Entry& entry) {
   if (&entry == &current_) is_changed_ = true;
 }
 
-/// Where a half of frame `seq` belongs; null when that frame is gone.
-CanGate::Entry* CanGate::entry_of(std::int64_t seq, std::int64_t now_us) {
-  if (is_open_ && open_.seq == seq) return &open_;
-  if (order_.take(seq) == SeqStep::kRepeat) return newest_closed(seq);
+/// Where a half of a frame belongs; null when that frame is gone.
+CanGate::Entry* CanGate::entry_of(const CanSample& half, std::int64_t now_us) {
+  if (half.session != session_) {
+    if (is_open_) close();
+    order_.restart();
+    session_ = half.session;
+  }
+  if (is_open_ && open_.seq == half.seq) return &open_;
+  if (order_.take(half.seq) == SeqStep::kRepeat) return newest_closed(half);
   if (is_open_) close();
   counters_.num_missed = order_.num_lost();
   open_ = Entry{};
-  open_.seq = seq;
+  open_.seq = half.seq;
+  open_.session = half.session;
   open_.received_us = now_us;
   is_open_ = true;
   return &open_;
 }
 
-/// The frame taken last, when that was `seq` and it is still here: a late half joins it.
-CanGate::Entry* CanGate::newest_closed(std::int64_t seq) {
-  if (!pending_.empty()) return pending_.back().seq == seq ? &pending_.back() : nullptr;
-  return has_current_ && current_.seq == seq ? &current_ : nullptr;
+/// The frame taken last, when it is the half's and still here: a late half joins it.
+CanGate::Entry* CanGate::newest_closed(const CanSample& half) {
+  const auto is_its = [&half](const Entry& entry) {
+    return entry.seq == half.seq && entry.session == half.session;
+  };
+  if (!pending_.empty()) return is_its(pending_.back()) ? &pending_.back() : nullptr;
+  return has_current_ && is_its(current_) ? &current_ : nullptr;
 }
 
 /// Queues the open entry, complete or not.
@@ -109,6 +120,11 @@ bool CanGate::next(std::int64_t now_us) {
   current_ = pending_.front();
   has_current_ = true;
   pending_.drop_front();
+  while (!pending_.empty() && !has_fresh_half(current_, now_us)) {
+    ++counters_.num_passed;
+    current_ = pending_.front();
+    pending_.drop_front();
+  }
   ++counters_.num_frames;
   return true;
 }
@@ -121,20 +137,48 @@ bool CanGate::next_mount() {
   return true;
 }
 
+bool CanGate::is_fresh(const CanSample& half, std::int64_t now_us) const {
+  return judge_age(now_us, half.capture_mono_us, stale_us_) == AgeState::kFresh;
+}
+
+bool CanGate::has_fresh_half(const Entry& entry, std::int64_t now_us) const {
+  return (entry.has_ego && is_fresh(entry.ego, now_us)) ||
+         (entry.has_plane && is_fresh(entry.plane, now_us));
+}
+
+/// Why nothing of the current frame is sent.
+CanMode CanGate::mode_without_values(std::int64_t now_us) const {
+  if (!has_current_ || age_us(now_us, current_.received_us) > stale_us_) return CanMode::kNoInput;
+  const CanSample& half = current_.has_ego ? current_.ego : current_.plane;
+  const AgeState age = judge_age(now_us, half.capture_mono_us, stale_us_);
+  return age == AgeState::kTooOld ? CanMode::kTooOld : CanMode::kAgeUnknown;
+}
+
+CanState CanGate::state(const CanSample* ego, const CanSample* plane, std::int64_t now_us) const {
+  CanState state;
+  const bool has_any = ego != nullptr || plane != nullptr;
+  state.mode = has_any ? mode_of(ego, plane) : mode_without_values(now_us);
+  state.num_missed = counters_.num_missed;
+  state.num_overflowed = counters_.num_overflowed;
+  state.num_rejected = counters_.num_rejected;
+  state.num_unsent = counters_.num_unsent;
+  state.uptime_s = std::floor(static_cast<double>(age_us(now_us, start_us_)) * 1e-6);
+  if (has_current_) {
+    const CanSample& half = current_.has_ego ? current_.ego : current_.plane;
+    state.age_s = age_signal_s(now_us, half.capture_mono_us);
+  }
+  state.start = start_;
+  return state;
+}
+
 CanGate::Available CanGate::available(std::int64_t now_us) const {
   Available now;
-  const bool fresh = has_current_ && age_us(now_us, current_.received_us) <= stale_us_;
-  if (fresh && current_.has_ego) now.ego = &current_.ego;
-  if (fresh && current_.has_plane) now.plane = &current_.plane;
+  if (has_current_ && current_.has_ego && is_fresh(current_.ego, now_us)) now.ego = &current_.ego;
+  if (has_current_ && current_.has_plane && is_fresh(current_.plane, now_us))
+    now.plane = &current_.plane;
   if (has_mount_ && age_us(now_us, mount_.received_us) <= kMount.stale_us)
     now.mount = &mount_.mount;
-
-  now.state.mode = fresh ? mode_of(now.ego, now.plane) : CanMode::kNoInput;
-  now.state.num_missed = counters_.num_missed;
-  now.state.num_overflowed = counters_.num_overflowed;
-  now.state.num_rejected = counters_.num_rejected;
-  now.state.num_unsent = counters_.num_unsent;
-  now.state.uptime_s = std::floor(static_cast<double>(age_us(now_us, start_us_)) * 1e-6);
+  now.state = state(now.ego, now.plane, now_us);
   return now;
 }
 

@@ -35,8 +35,8 @@ struct MessageRow {
 inline constexpr std::array kMessageRows = std::to_array<MessageRow>({
     {"EgoMotion", "ego_motion", 0, 1, 10, CanTrigger::kNone,
      "Metric motion of the camera in one camera frame; repeated until the next frame. First of the "
-     "burst that every camera frame causes: the messages of ego motion, ground plane and odometry, "
-     "back to back."},
+     "burst that every camera frame causes: the messages of ego motion, ground plane, odometry and "
+     "age, back to back."},
     {"EgoMotionDetail", "ego_motion_detail", 1, 2, 10, CanTrigger::kNone,
      "Status, acceleration and standard deviations of the same camera frame's motion."},
     {"GroundPlane", "ground_plane", 2, 3, 10, CanTrigger::kNone,
@@ -49,6 +49,10 @@ inline constexpr std::array kMessageRows = std::to_array<MessageRow>({
      "Integrated pose, second part. Also sent at once for every new camera frame."},
     {"OdometryDistance", "odometry_distance", 6, 7, 20, CanTrigger::kCameraFrame,
      "Integrated pose, third part. Also sent at once for every new camera frame."},
+    {"Frame", "frame", 10, 15, 20, CanTrigger::kCameraFrame,
+     "Age of a camera frame, and which of its values were not believed. Also sent at once for "
+     "every "
+     "new camera frame, last of its burst."},
     {"Status", "status", 7, 8, 100, CanTrigger::kNone, "State of the chain, reasons and counters."},
     {"Info", "info", 8, 9, 1000, CanTrigger::kNone, "Versions and uptime."},
     {"Mount", "mount", 9, 14, 1000, CanTrigger::kMountMessage,

@@ -7,6 +7,9 @@
 /// Silence:
 ///   Nothing is sent before the first list: a system without plumb-objects has no object messages
 ///   on its bus.
+/// Age:
+///   As CanGate: from the capture of the image that was searched. Of a list that is too old only
+///   its own message is sent, as "not available"; lists that wait are then passed over.
 /// Time:
 ///   As CanGate, whose ticks these are.
 /// Memory:
@@ -27,6 +30,7 @@ namespace plumb {
 /// What one OBJECTS gives to the bus, the nearest object first.
 struct CanObjects {
   std::int64_t seq = 0;
+  std::int64_t capture_mono_us = 0;  ///< on the gates' clock; 0: not known
   CanObjectCounts counts;
   std::array<SourceValues, kMaxCanObjects> objects;
 };
@@ -43,25 +47,26 @@ class CanObjectGate {
   void tick(std::int64_t now_us, CanSink& sink);
 
   [[nodiscard]] bool idle() const { return pending_.empty(); }
+  /// Lists dropped because the queue was full, or passed over because they had become too old.
   [[nodiscard]] std::int64_t num_overflowed() const { return num_overflowed_; }
+  /// Lists that were too old on receipt.
+  [[nodiscard]] std::int64_t num_late() const { return num_late_; }
 
  private:
-  struct Entry {
-    std::int64_t received_us = 0;
-    CanObjects list;
-  };
-  void send_list(bool fresh, std::int64_t now_us, CanSink& sink);
+  [[nodiscard]] bool is_fresh(const CanObjects& list, std::int64_t now_us) const;
+  void send_list(std::int64_t now_us, CanSink& sink);
   void send_object(std::size_t index, std::int64_t now_us, CanSink& sink);
   void send(std::size_t message, const MessageValues& values, std::size_t index,
             std::int64_t now_us, CanSink& sink);
 
   Messages messages_;
   std::int64_t stale_us_;
-  FixedQueue<Entry, kMaxPending> pending_;
-  Entry current_;
+  FixedQueue<CanObjects, kMaxPending> pending_;
+  CanObjects current_;
   bool has_current_ = false;
   int ms_since_list_ = 0;
   std::int64_t num_overflowed_ = 0;
+  std::int64_t num_late_ = 0;
   std::array<std::uint8_t, kNumMessages> alive_{};
 };
 

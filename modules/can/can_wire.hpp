@@ -4,9 +4,12 @@
 /// The input is the LCM message, also in a replay: quaternions and matrices round differently, and
 /// "live equals replay" is judged bit for bit.
 ///
+/// Way of a message:
+///   Its contract (fault_of), its sender (CanSourceGuard), the vehicle's limits (MotionJudge and
+///   PlaneJudge), the ranges of the signals (settle_values), its age (CanGate, at every tick).
 /// Live:
 ///   Call on_*(message, monotonic_us()) as messages arrive, and tick(monotonic_us(), sink) from a
-///   timer of CanGate::kTickUs.
+///   timer of CanGate::kTickUs. The clock is that of capture_mono_us.
 /// Replay:
 ///   For each message call advance(message.utime, sink), then on_*(message, message.utime); at the
 ///   end finish(sink).
@@ -16,33 +19,22 @@
 
 #include "modules/can/can_gate.hpp"
 #include "modules/can/can_object_gate.hpp"
+#include "modules/can/can_source.hpp"
+#include "modules/can/judge_wire.hpp"
+#include "modules/can/sample_wire.hpp"
 #include "modules/can/signals/signal_tables.hpp"
-#include "plumb/ego_motion_t.hpp"
-#include "plumb/ground_plane_t.hpp"
-#include "plumb/mount_t.hpp"
-#include "plumb/objects_t.hpp"
+#include "modules/integrity/plausibility_config.hpp"
 
 namespace plumb {
-
-/// Fills the output with the values of all signals that come from the message, and returns null.
-/// Returns what is wrong when the message breaks its contract: an unknown status, a negative seq,
-/// or a value that is not a number, or has a negative variance, although the status says it is
-/// valid. @pre `messages` come from can_messages()
-[[nodiscard]] const char* from_wire(const ego_motion_t& message, const Messages& messages,
-                                    CanSample* ego);
-[[nodiscard]] const char* from_wire(const ground_plane_t& message, const Messages& messages,
-                                    CanSample* plane);
-[[nodiscard]] const char* from_wire(const mount_t& message, const Messages& messages,
-                                    CanSample* mount);
-/// Takes the nearest kMaxCanObjects that have a place on the road, the nearest first. One broken
-/// object breaks the message.
-[[nodiscard]] const char* from_wire(const objects_t& message, const Messages& messages,
-                                    CanObjects* objects);
 
 class CanOutput {
  public:
   /// Throws InputError for identifiers and cycles that do not fit together, see can_addresses().
-  explicit CanOutput(const CanConfig& config);
+  explicit CanOutput(const CanConfig& config, const PlausibilityConfig& vehicle = {});
+
+  /// The start of this run [us]: receivers shall see that a counter began anew. Before the first
+  /// message; a replay leaves it alone.
+  void set_session(std::int64_t session_us);
 
   /// They return null, or why the message was rejected and counted.
   const char* on_ground_plane(const ground_plane_t& message, std::int64_t now_us);
@@ -67,10 +59,21 @@ class CanOutput {
   }
   [[nodiscard]] std::int64_t num_rejected() const { return num_rejected_; }
   [[nodiscard]] const CanCounters& counters() const { return gate_.counters(); }
-  /// Lists of objects that came faster than they could be sent.
+  /// Lists of objects that came faster than they could be sent, or became too old before.
   [[nodiscard]] std::int64_t num_objects_overflowed() const {
     return object_gate_.num_overflowed();
   }
+  /// Messages whose image was too old on receipt.
+  [[nodiscard]] std::int64_t num_late() const {
+    return gate_.counters().num_late + object_gate_.num_late();
+  }
+  /// Messages of which a value was refused because no road vehicle can have it.
+  [[nodiscard]] std::int64_t num_implausible() const {
+    return motion_judge_.num_refused() + plane_judge_.num_refused();
+  }
+  /// Why the newest of these was refused.
+  [[nodiscard]] PlausibilityReason motion_refusal() const { return motion_judge_.last_reason(); }
+  [[nodiscard]] PlausibilityReason plane_refusal() const { return plane_judge_.last_reason(); }
 
  private:
   static constexpr std::int64_t kMaxStepUs = 10'000'000;
@@ -78,6 +81,9 @@ class CanOutput {
   const char* counted(const char* fault);
 
   Messages messages_;
+  CanSourceGuard source_;
+  MotionJudge motion_judge_;
+  PlaneJudge plane_judge_;
   CanGate gate_;
   CanObjectGate object_gate_;
   CanSample sample_;

@@ -7,14 +7,18 @@
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/mount_t.hpp"
+#include "plumb/vo_motion_t.hpp"
 
 namespace plumb {
 
 [[nodiscard]] inline CanValidity validity_of(const ego_motion_t& message) {
   switch (message.status) {
     case ego_motion_t::STATUS_OK:
-    case ego_motion_t::STATUS_STANDSTILL:
       return CanValidity::kValid;
+    case ego_motion_t::STATUS_STANDSTILL:
+      // Equal images are what a standing camera sends, and what a broken one does.
+      return message.reason == vo_motion_t::REASON_IMAGE_UNPROVEN ? CanValidity::kDegraded
+                                                                  : CanValidity::kValid;
     case ego_motion_t::STATUS_SCALE_HELD:
     case ego_motion_t::STATUS_COASTING:
       return CanValidity::kDegraded;

@@ -41,7 +41,7 @@ Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, S
       mount_(without_file(config.mount)),
       objects_(config.detections, config.objects, config.ground,
                [this](const objects_t& objects) { take_objects(objects); }),
-      can_(config.can),
+      can_(config.can, config.vehicle),
       can_sink_(can_sink),
       sink_(std::move(sink)),
       objects_sink_(std::move(objects_sink)) {
@@ -101,7 +101,9 @@ void Chain::take_image(std::span<const std::uint8_t> bytes) {
 }
 
 const char* Chain::take_motion(const vo_motion_t& motion) {
-  const char* refused = ground_.take_motion(motion);
+  motion_ = motion;
+  if (motion_.capture_mono_us == 0) motion_.capture_mono_us = motion_.utime;
+  const char* refused = ground_.take_motion(motion_);
   ground_.expire();  // The image of a motion never comes later in a log.
   ground_timer_.end();
   return refused;

@@ -11,6 +11,7 @@
 #include "modules/ground/types/ground_config.hpp"
 #include "modules/ground_paper/paper_config.hpp"
 #include "modules/integrity/integrity_config.hpp"
+#include "modules/integrity/plausibility_config.hpp"
 #include "modules/mount/mount_config.hpp"
 #include "modules/objects/objects_config.hpp"
 #include "modules/vo/vo_config.hpp"
@@ -28,6 +29,7 @@ struct PlumbConfig {
   PaperConfig ground_paper;
   MountConfig mount;
   ObjectsConfig objects;
+  PlausibilityConfig vehicle;
   CanConfig can;
 
   template <typename Config, typename Visit>
@@ -43,6 +45,7 @@ struct PlumbConfig {
     PaperConfig::visit(c.ground_paper, field);
     MountConfig::visit(c.mount, field);
     ObjectsConfig::visit(c.objects, field);
+    PlausibilityConfig::visit(c.vehicle, field);
     CanConfig::visit(c.can, field);
   }
 };

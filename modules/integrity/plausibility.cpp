@@ -33,7 +33,7 @@ const char* describe(PlausibilityReason reason) {
   switch (reason) {
     case PlausibilityReason::kNone:
       return "";
-    case PlausibilityReason::kNotAvailable:
+    case PlausibilityReason::kNotMeasured:
       return "it is not measured";
     case PlausibilityReason::kOutOfRange:
       return "it is beyond what a road vehicle does";
@@ -134,7 +134,7 @@ void Plausibility::judge_acceleration(const VehicleMotion& motion,
                                       PlausibilityVerdict* verdict) const {
   PlausibilityReason& reason = (*verdict)[VehicleSignal::kAcceleration];
   if (std::isnan(motion.accel_m_s2)) {
-    reason = PlausibilityReason::kNotAvailable;
+    reason = PlausibilityReason::kNotMeasured;
   } else if (!verdict->is_valid(VehicleSignal::kSpeed)) {
     reason = PlausibilityReason::kDependent;
   } else if (std::abs(motion.accel_m_s2) > config_.max_accel_m_s2) {
@@ -147,7 +147,7 @@ void Plausibility::judge_pose(const VehicleMotion& motion, PlausibilityVerdict* 
   const double covered_m = motion.distance_m - last_distance_m_;
   last_distance_m_ = motion.distance_m;
   if (std::isnan(motion.distance_m)) {
-    reason = PlausibilityReason::kNotAvailable;
+    reason = PlausibilityReason::kNotMeasured;
   } else if (!motion.is_reset && contradict(covered_m, motion.step_m, kStepSlackM)) {
     reason = PlausibilityReason::kInconsistent;
   } else if (!verdict->is_valid(VehicleSignal::kSpeed)) {

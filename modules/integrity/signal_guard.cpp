@@ -16,7 +16,7 @@ PlausibilityReason SignalGuard::update(double value, double interval_s) {
     num_agreeing_ = 0;
     agreeing_s_ = 0.0;
     previous_ = kNan;
-    return is_known ? PlausibilityReason::kOutOfRange : PlausibilityReason::kNotAvailable;
+    return is_known ? PlausibilityReason::kOutOfRange : PlausibilityReason::kNotMeasured;
   }
   if (is_doubted_) return doubt(value, interval_s);
   if (reachable(value, interval_s)) return believe(value);

@@ -22,7 +22,7 @@ namespace plumb {
 
 enum class PlausibilityReason : std::int8_t {
   kNone = 0,
-  kNotAvailable = 1,  ///< the source does not give it (NaN)
+  kNotMeasured = 1,   ///< the source does not give it (NaN)
   kOutOfRange = 2,    ///< beyond a limit of the vehicle
   kTooFast = 3,       ///< changes faster than a vehicle can
   kRecovering = 4,    ///< plausible again, not yet for long enough

@@ -1,11 +1,9 @@
 #include "modules/mount/mount_source.hpp"
 
-#include <cstdio>
-#include <fstream>
-
 #include "core/input_error.hpp"
 #include "platform/complete_reader.hpp"
 #include "platform/config.hpp"
+#include "platform/durable_file.hpp"
 
 namespace plumb {
 namespace {
@@ -48,16 +46,12 @@ void save_mount_reference(const std::string& path, const MountReference& referen
   MountReference out = reference;
   ConfigWriter writer;
   visit(out, writer);
-  const std::string part = path + ".part";
-  std::ofstream file(part);
-  file << "# Orientation of the camera on its vehicle. Written by plumb-ground; delete it after "
-          "work "
-          "on the camera.\n"
-       << writer.sections();
-  file.close();
-  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-    throw InputError("cannot write " + path);
-  }
+  const std::string text =
+      "# Orientation of the camera on its vehicle. Written by plumb-ground; delete it after work "
+      "on "
+      "the camera.\n" +
+      writer.sections();
+  if (!replace_file(path, text)) throw InputError("cannot write " + path);
 }
 
 }  // namespace plumb

@@ -68,6 +68,7 @@ const char* ObjectsNode::pair(const ground_plane_t& plane, const ego_motion_t& e
   next_ = (next_ + 1) % kKept;
   ground.seq = output_.seq;
   ground.capture_us = output_.capture_us;
+  ground.capture_mono_us = plane.capture_mono_us;
   const PlaneOutput& out = output_.plane;
   ground.plane_valid = out.status == GroundStatus::kOk || out.status == GroundStatus::kHeld;
   ground.plane = {out.pitch_rad, out.roll_rad, out.height_m, out.cov};
@@ -139,7 +140,7 @@ void ObjectsNode::process(const DetectionFrame& frame, const Ground* ground) {
   input.plane_measured = ground != nullptr && ground->plane_valid && objects_.plane == "measured";
   input.plane = input.plane_measured ? ground->plane : calibrated_plane();
 
-  Ground now;
+  Ground now;  // without a plane its capture time is not known
   if (ground != nullptr) now = *ground;
   now.seq = frame.seq;
   now.capture_us = frame.capture_us;
@@ -153,6 +154,7 @@ void ObjectsNode::process(const DetectionFrame& frame, const Ground* ground) {
   last_ = now;
   any_processed_ = true;
   to_wire(tracker_->update(input), &message_);
+  message_.capture_mono_us = now.capture_mono_us;
   sink_(message_);
 }
 

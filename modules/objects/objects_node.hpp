@@ -5,6 +5,8 @@
 ///   that is among the last kKept. Detections that arrive before their plane wait for it. The wait
 ///   also ends with a plane of a later image, with expire(), or when kMaxWaiting later detections
 ///   arrive; the calibrated plane is then used (REASON_CALIBRATED_PLANE).
+/// Capture time on this machine's clock:
+///   It comes with the plane of the image. Without that plane it is not known.
 /// Order:
 ///   Detections of an image that is not newer than the last one are refused.
 /// Initialisation:
@@ -55,6 +57,7 @@ class ObjectsNode {
   struct Ground {
     std::int64_t seq = -1;
     std::int64_t capture_us = 0;
+    std::int64_t capture_mono_us = 0;  ///< 0: not known
     bool plane_valid = false;
     RoadPlane plane;
     bool motion_valid = false;

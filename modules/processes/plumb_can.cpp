@@ -1,5 +1,6 @@
 /// GROUND_PLANE, EGO_MOTION, MOUNT, OBJECTS -> can -> CAN interface, trace file
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -7,51 +8,21 @@
 #include "modules/can/can_dbc.hpp"
 #include "modules/can/can_wire.hpp"
 #include "modules/chain/plumb_config.hpp"
-#include "platform/can_trace.hpp"
+#include "platform/can_sinks.hpp"
 #include "platform/clock.hpp"
 #include "platform/log.hpp"
 #include "platform/overwrite_guard.hpp"
 #include "platform/process.hpp"
-#include "platform/socket_can.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr std::int64_t kFlushUs = 500'000;
-
-/// The bus and the file, either of which may be missing.
-struct Sinks final : CanSink {
-  std::optional<SocketCan> bus;
-  std::optional<CanTraceWriter> trace;
-  const std::string no_trouble;
-
-  void open(const std::string& interface, const std::string& path) {
-    if (!interface.empty()) bus.emplace(interface);
-    if (path.empty()) return;
-    trace.emplace(path, interface.empty() ? "can0" : interface);
-    if (!trace->error().empty()) throw UsageError(trace->error());
-    trace->set_time_offset_us(realtime_us() - monotonic_us());
-  }
-  void send(std::int64_t time_us, const CanFrame& frame) override {
-    if (bus) bus->send(time_us, frame);
-    if (trace) trace->send(time_us, frame);
-  }
-  [[nodiscard]] std::int64_t num_sent() const {
-    return bus ? bus->counters().num_sent : trace->num_frames();
-  }
-  [[nodiscard]] std::int64_t num_unsent() const { return bus ? bus->counters().num_unsent : 0; }
-  [[nodiscard]] const std::string& trouble() const {
-    if (trace && !trace->error().empty()) return trace->error();
-    return bus ? bus->state() : no_trouble;
-  }
-};
-
 class CanProcess {
  public:
-  CanProcess(Process& process, const CanConfig& config, Sinks& sinks)
+  CanProcess(Process& process, const PlumbConfig& config, CanSinks& sinks)
       : process_(process),
         sinks_(sinks),
-        output_(config),
+        output_(config.can, config.vehicle),
         plane_(process.bus(), kGroundPlane, Input::kPeriodic,
                [this](const ground_plane_t& message) {
                  return output_.on_ground_plane(message, monotonic_us());
@@ -66,42 +37,69 @@ class CanProcess {
         objects_(process.bus(), kObjects, Input::kOccasional, [this](const objects_t& message) {
           return output_.on_objects(message, monotonic_us());
         }) {
+    output_.set_session(process.session());
     process.loop().every(CanGate::kTickUs, [this] { tick(monotonic_us()); });
-    if (sinks.trace) process.loop().every(kFlushUs, [this] { sinks_.trace->flush(); });
   }
 
  private:
   void tick(std::int64_t now_us) {
-    Counters& counters = process_.counters();
-    if (last_tick_us_ != 0 && now_us - last_tick_us_ > 2 * CanGate::kTickUs) ++counters.num_late;
+    if (last_tick_us_ != 0 && now_us - last_tick_us_ > 2 * CanGate::kTickUs) ++num_late_ticks_;
     last_tick_us_ = now_us;
-    if (sinks_.bus) sinks_.bus->service(now_us);
-    output_.report(counters.num_rejected - output_.num_rejected(), sinks_.num_unsent());
+    sinks_.service(now_us);
+    output_.report(process_.counters().num_rejected - output_.num_rejected(), sinks_.num_unsent());
     output_.tick(now_us, sinks_);
-    counters.num_published = sinks_.num_sent();
-    counters.num_unsent = sinks_.num_unsent();
-    counters.num_dropped = output_.counters().num_missed + output_.counters().num_overflowed +
-                           output_.num_objects_overflowed();
-    if (sinks_.trouble() != told_) tell(sinks_.trouble());
+    count();
+    if (sinks_.trouble_changed()) tell(sinks_.trouble());
+    tell_refusals();
   }
 
-  void tell(const std::string& trouble) {
-    told_ = trouble;
-    log_line("%s", trouble.empty() ? "the CAN interface is up" : trouble.c_str());
-    if (trouble.empty()) return process_.health().clear_condition();
-    process_.health().set_condition(HealthState::kDegraded, trouble.c_str());
-    if (!sinks_.bus) throw std::runtime_error("nowhere left to write CAN frames to");
+  void count() {
+    Counters& counters = process_.counters();
+    // A message that waited too long here is also too old, so the two counts overlap.
+    const std::int64_t num_waited = counters.num_late - num_added_late_;
+    num_added_late_ = std::max<std::int64_t>(output_.num_late() - num_waited, 0) + num_late_ticks_;
+    counters.num_late = num_waited + num_added_late_;
+    counters.num_published = sinks_.num_sent();
+    counters.num_unsent = sinks_.num_unsent() + sinks_.num_dropped();
+    counters.num_dropped = output_.counters().num_missed + output_.counters().num_overflowed +
+                           output_.counters().num_passed + output_.num_objects_overflowed();
+  }
+
+  void tell(const char* trouble) {
+    if (*trouble == '\0') {
+      log_line("%s", sinks_.has_bus() ? "the CAN interface is up" : "the trace keeps up again");
+      return process_.health().clear_condition();
+    }
+    log_line("%s", trouble);
+    process_.health().set_condition(HealthState::kDegraded, trouble);
+    if (sinks_.is_useless()) throw std::runtime_error("nowhere left to write CAN frames to");
+  }
+
+  void tell_refusals() {
+    if (output_.num_implausible() == num_told_) return;
+    num_told_ = output_.num_implausible();
+    for (const PlausibilityReason why : {output_.motion_refusal(), output_.plane_refusal()}) {
+      if (is_about_vehicle(why)) log_limited("a value is not sent: %s", describe(why));
+    }
+  }
+
+  /// At the start and after a gap values are refused without being wrong.
+  static bool is_about_vehicle(PlausibilityReason why) {
+    return why == PlausibilityReason::kOutOfRange || why == PlausibilityReason::kTooFast ||
+           why == PlausibilityReason::kInconsistent;
   }
 
   Process& process_;
-  Sinks& sinks_;
+  CanSinks& sinks_;
   CanOutput output_;
   Subscriber<ground_plane_t> plane_;
   Subscriber<ego_motion_t> ego_;
   Subscriber<mount_t> mount_;
   Subscriber<objects_t> objects_;
   std::int64_t last_tick_us_ = 0;
-  std::string told_;
+  std::int64_t num_late_ticks_ = 0;
+  std::int64_t num_added_late_ = 0;  ///< part of the counter that the bus did not count
+  std::int64_t num_told_ = 0;
 };
 
 }  // namespace
@@ -114,13 +112,14 @@ int main(int argc, char** argv) {
   std::string interface, path;
   process.declare_options([&](CLI::App& app) {
     app.add_option("--interface", interface, "CAN interface, for example can0");
-    app.add_option("--trace", path, "file for every frame, as candump -L writes it");
+    app.add_option("--trace", path,
+                   "file for every frame, as candump -L writes it; it is continued");
   });
 
   plumb::PlumbConfig config;
   process.declare_print("--print-dbc", "print the CAN database of the configuration, then exit",
                         [&] { return render_dbc(config.can, can_messages(config.can)); });
-  plumb::Sinks sinks;
+  plumb::CanSinks sinks;
   std::optional<plumb::CanProcess> can;
   const int code = process.run(argc, argv, &config, [&] {
     if (interface.empty() && path.empty())
@@ -130,11 +129,14 @@ int main(int argc, char** argv) {
         .writes("--trace", path)
         .check();
     (void)can_addresses(config.can);  // refused before the trace file is created
-    sinks.open(interface, path);
-    can.emplace(process, config.can, sinks);
+    const std::int64_t offset_us = plumb::realtime_us() - plumb::monotonic_us();
+    const std::string& error = sinks.open(interface, path, offset_us);
+    if (!error.empty()) throw plumb::UsageError(error);
+    can.emplace(process, config, sinks);
   });
-  if (sinks.trace && !sinks.trace->flush() && code == 0) {
-    plumb::log_line("%s", sinks.trace->error().c_str());
+  if (!sinks.close() && code == 0) {
+    plumb::log_line("%s", sinks.trace_error().empty() ? "the trace is not complete"
+                                                      : sinks.trace_error().c_str());
     return 1;
   }
   return code;

@@ -120,10 +120,11 @@ TEST(CanLoad, CountsBitsAsIso11898Does) {
 
 TEST(CanLoad, CountsWhatLeavesInASecond) {
   const Messages& messages = test::default_messages();
-  // 4 every 10 ms, 3 every 20 ms, 10 + 1 + 1 a second; odometry again for each camera frame.
-  EXPECT_NEAR(max_frames_per_s(messages, {10.0, 0.0, 0}), 562 + 1 + 30, 1e-9);
-  EXPECT_NEAR(max_frames_per_s(messages, {10.0, 10.0, 8}), 562 + 1 + 30 + 10 + 240, 1e-9);
-  EXPECT_NEAR(max_bus_load(messages, {10.0, 0.0, 0}, 500e3), 593 * 135 / 500e3, 1e-9);
+  // 4 every 10 ms, 4 every 20 ms, 10 + 1 + 1 a second; odometry and age again for each camera
+  // frame.
+  EXPECT_NEAR(max_frames_per_s(messages, {10.0, 0.0, 0}), 612 + 1 + 40, 1e-9);
+  EXPECT_NEAR(max_frames_per_s(messages, {10.0, 10.0, 8}), 612 + 1 + 40 + 10 + 240, 1e-9);
+  EXPECT_NEAR(max_bus_load(messages, {10.0, 0.0, 0}, 500e3), 653 * 135 / 500e3, 1e-9);
 }
 
 }  // namespace

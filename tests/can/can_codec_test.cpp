@@ -61,20 +61,54 @@ TEST(CanCodec, EverySignalIsExactAtItsMaximum) {
   });
 }
 
-TEST(CanCodec, EverySignalSaturatesBelowItsMinimum) {
+/// What stands for "not available"; 0 where the signal has no such value.
+std::uint64_t absent(const SignalLayout& signal) { return signal.has_sna ? sna_raw(signal) : 0; }
+
+TEST(CanCodec, AValueBelowTheRangeIsNotAvailable) {
   for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
+    if (signal.beyond == Beyond::kWraps) return;
     for (const double below : {signal.factor, 1e3, 1e9, 1e300, kInf}) {
-      EXPECT_EQ(sent_raw(message, i, min_physical(signal) - below), 0U) << below;
+      EXPECT_EQ(sent_raw(message, i, min_physical(signal) - below), absent(signal)) << below;
     }
   });
 }
 
-TEST(CanCodec, EverySignalSaturatesAboveItsMaximumAndNeverReachesNotAvailable) {
-  for_each_signal([](const Message& message, std::size_t i, const SignalLayout& signal) {
-    for (const double above : {signal.factor, 1e3, 1e9, 1e300, kInf}) {
-      EXPECT_EQ(sent_raw(message, i, max_physical(signal) + above), max_raw(signal)) << above;
+TEST(CanCodec, AValueAboveTheRangeIsNotAvailableUnlessTheSignalStays) {
+  int num_staying = 0;
+  for_each_signal([&](const Message& message, std::size_t i, const SignalLayout& signal) {
+    if (signal.beyond == Beyond::kWraps) return;
+    const bool stays = signal.beyond == Beyond::kStays;
+    num_staying += stays ? 1 : 0;
+    for (const double above : {signal.factor, 1e3, 1e9, 1e300}) {
+      EXPECT_EQ(sent_raw(message, i, max_physical(signal) + above),
+                stays ? max_raw(signal) : absent(signal))
+          << above;
     }
+    EXPECT_EQ(sent_raw(message, i, kInf), absent(signal));
+    const bool says_so =
+        std::string(message.signals[i].comment).find("tays at") != std::string::npos;
+    EXPECT_EQ(says_so, stays) << "the comment says that the value stays";
   });
+  EXPECT_EQ(num_staying, 8);
+}
+
+TEST(CanCodec, APositionIsSentModuloAndKeepsItsDifferences) {
+  int num_wrapping = 0;
+  for_each_signal([&](const Message& message, std::size_t i, const SignalLayout& signal) {
+    if (signal.beyond != Beyond::kWraps) return;
+    ++num_wrapping;
+    const std::string comment = message.signals[i].comment;
+    EXPECT_NE(comment.find("Modulo " + std::to_string(static_cast<long>(signal.modulus)) + " m"),
+              std::string::npos);
+    for (const double m : {0.0, 12.5, 41'943.0, -41'944.0, 838'861.0, 1'000'000.0, 2.5e6, -3e6}) {
+      const double sent = to_physical(signal, sent_raw(message, i, m));
+      const double turns = (m - sent) / signal.modulus;
+      EXPECT_NEAR(turns, std::round(turns), 0.51 * signal.factor / signal.modulus) << m;
+    }
+    EXPECT_EQ(sent_raw(message, i, signal.offset + signal.modulus - 0.1 * signal.factor), 0U);
+    EXPECT_EQ(sent_raw(message, i, kInf), sna_raw(signal));
+  });
+  EXPECT_EQ(num_wrapping, 4);
 }
 
 TEST(CanCodec, NanIsSentAsAllOnesAndReadBackAsNan) {
@@ -91,8 +125,13 @@ TEST(CanCodec, NanIsSentAsAllOnesAndReadBackAsNan) {
 
 TEST(CanCodec, TwoHundredAndSixtyDoesNotBecomeFour) {
   const SignalLayout byte{0, 8};
-  EXPECT_EQ(to_raw(byte, 260.0), 254U);
-  EXPECT_EQ(to_raw(byte, -1.0), 0U);
+  EXPECT_EQ(to_raw(byte, 260.0), 255U);
+  EXPECT_EQ(to_raw(byte, -1.0), 255U);
+  EXPECT_EQ(to_raw(byte, -0.4), 0U) << "within half a step";
+  EXPECT_EQ(to_raw(staying(byte), 260.0), 254U);
+  EXPECT_EQ(to_raw(staying(byte), -1.0), 255U);
+  EXPECT_FALSE(is_sendable(byte, 260.0));
+  EXPECT_TRUE(is_sendable(byte, 254.0));
 }
 
 TEST(CanCodec, DecodedValuesAreWithinHalfAStepOfWhatWasEncoded) {

@@ -15,7 +15,7 @@ class GateValidity : public GateFixture {};
 
 TEST_F(GateValidity, StaleValuesAreNotAvailableWithinOneCycle) {
   give(1);
-  const std::int64_t limit_us = now_us_ + 300'000;
+  const std::int64_t limit_us = now_us_ + 250'000;
   while (now_us_ <= limit_us) {
     tick();
     ASSERT_EQ(sink_.newest()["EgoMotion_Validity"], kValid);
@@ -50,7 +50,7 @@ TEST_F(GateValidity, RecoversWithTheFirstFrameAfterSilence) {
 
 TEST_F(GateValidity, AFrameThatWaitedTooLongIsSentAsNotAvailable) {
   give(1);
-  now_us_ += 300'001;
+  now_us_ += 250'001;
   tick();
   EXPECT_TRUE(std::isnan(sink_.newest()["EgoMotion_Speed"]));
 }

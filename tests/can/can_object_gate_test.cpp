@@ -10,6 +10,7 @@
 #include "modules/can/can_gate.hpp"
 #include "modules/can/can_wire.hpp"
 #include "plumb/detection_t.hpp"
+#include "tests/can/from_wire.hpp"
 #include "tests/can/reading.hpp"
 
 namespace plumb {
@@ -49,9 +50,10 @@ objects_t list_of(std::int64_t seq, std::vector<object_t> objects, std::int32_t 
 
 class ObjectGate : public testing::Test {
  protected:
-  void give(const objects_t& message) {
+  void give(objects_t message) {
+    if (message.capture_mono_us == 0) message.capture_mono_us = now_us_;
     CanObjects objects;
-    ASSERT_EQ(from_wire(message, test::default_messages(), &objects), nullptr);
+    ASSERT_EQ(test::from_wire(message, test::default_messages(), &objects), nullptr);
     gate_.on_objects(objects, now_us_);
   }
   /// Returns the frames that the next tick sends.
@@ -129,7 +131,7 @@ TEST_F(ObjectGate, SendsEachListOnceAndThenOnlyThatNothingIsNew) {
 
 TEST_F(ObjectGate, SaysNotAvailableWithinOneCycleOfGoingStale) {
   give(list_of(1, {object_at(10.0, 0.0)}));
-  const std::int64_t stale_us = now_us_ + 300'000;  // can.stale_s
+  const std::int64_t stale_us = now_us_ + 250'000;  // can.stale_s
   (void)tick();
   std::int64_t first_us = 0;
   while (first_us == 0 && now_us_ < stale_us + 1'000'000) {
@@ -154,21 +156,79 @@ TEST_F(ObjectGate, DropsTheOldestListsWhenTheyComeFasterThanTheyLeave) {
   EXPECT_EQ(read(tick()[0]).frame_counter(), 4.0);
 }
 
-TEST_F(ObjectGate, ValuesSaturateAndWhatIsNotKnownIsNotAvailable) {
+TEST_F(ObjectGate, WhatIsBeyondItsRangeOrNotKnownIsNotAvailable) {
   object_t far = object_at(900.0, -500.0);
   far.velocity_ground_m_s[0] = kNan;
   far.time_to_collision_s = kNan;
-  far.age_s = 1e6;
-  far.position_cov_m2[0][0] = 1e6;
   give(list_of(1, {far}));
   const auto burst = tick();
-  EXPECT_NEAR(read(burst[1])["Obj#_PosX"], 200.7, 1e-6);
-  EXPECT_NEAR(read(burst[1])["Obj#_PosY"], -102.4, 1e-6);
-  EXPECT_NEAR(read(burst[1])["Obj#_PosXStd"], 12.7, 1e-6);
+  for (const char* const name : {"Obj#_PosX", "Obj#_PosY", "Obj#_PosXStd", "Obj#_PosYStd"})
+    EXPECT_TRUE(std::isnan(read(burst[1])[name])) << name;
   EXPECT_TRUE(std::isnan(read(burst[2])["Obj#_VelX"]));
   EXPECT_TRUE(std::isnan(read(burst[2])["Obj#_VelY"]));
   EXPECT_TRUE(std::isnan(read(burst[3])["Obj#_TimeToCollision"]));
+  EXPECT_NEAR(read(burst[3])["Obj#_Width"], 1.7, 0.026);
+}
+
+TEST_F(ObjectGate, APlaceWhoseDeviationIsBeyondItsRangeIsNotSent) {
+  object_t vague = object_at(30.0, 2.0);
+  vague.position_cov_m2[0][0] = 1e6;
+  give(list_of(1, {vague}));
+  const auto burst = tick();
+  EXPECT_TRUE(std::isnan(read(burst[1])["Obj#_PosX"]));
+  EXPECT_TRUE(std::isnan(read(burst[1])["Obj#_PosXStd"]));
+  EXPECT_NEAR(read(burst[1])["Obj#_PosY"], 2.0, 0.026);
+}
+
+TEST_F(ObjectGate, TimesStayAtTheEndOfTheirRanges) {
+  object_t old = object_at(30.0, 2.0);
+  old.age_s = 1e6;
+  old.time_to_collision_s = 900.0;
+  give(list_of(1, {old}));
+  const auto burst = tick();
   EXPECT_NEAR(read(burst[3])["Obj#_Age"], 51.0, 1e-6);
+  EXPECT_NEAR(read(burst[3])["Obj#_TimeToCollision"], 25.5, 1e-6);
+}
+
+TEST_F(ObjectGate, CountsTheAgeFromTheCaptureOfTheImage) {
+  objects_t message = list_of(1, {object_at(10.0, 0.0)});
+  message.capture_mono_us = now_us_ - 200'000;
+  give(message);
+  EXPECT_NEAR(read(tick()[0])["ObjList_Age"], 0.2, 0.0006);
+  EXPECT_EQ(gate_.num_late(), 0);
+
+  message.seq = 2;
+  message.capture_mono_us = now_us_ - 251'000;
+  give(message);
+  const auto burst = tick();
+  ASSERT_EQ(burst.size(), 1U) << "no object of a list that is too old";
+  EXPECT_TRUE(std::isnan(read(burst[0])["ObjList_Count"]));
+  EXPECT_TRUE(std::isnan(read(burst[0])["ObjList_NumLeftOut"]));
+  EXPECT_NEAR(read(burst[0])["ObjList_Age"], 0.251, 0.0006);
+  EXPECT_EQ(gate_.num_late(), 1);
+}
+
+TEST_F(ObjectGate, AnUnknownOrFutureCaptureTimeIsNotAvailable) {
+  CanObjects objects;
+  objects.seq = 3;
+  for (const std::int64_t capture_us : {std::int64_t{0}, now_us_ + 1'000'000}) {
+    objects.capture_mono_us = capture_us;
+    gate_.on_objects(objects, now_us_);
+    const auto burst = tick();
+    ASSERT_EQ(burst.size(), 1U);
+    EXPECT_TRUE(std::isnan(read(burst[0])["ObjList_Count"]));
+    EXPECT_TRUE(std::isnan(read(burst[0])["ObjList_Age"]));
+  }
+}
+
+TEST_F(ObjectGate, PassesOverListsThatBecameTooOldWhileTheyWaited) {
+  for (int seq = 0; seq < 10; ++seq) give(list_of(seq, {object_at(10.0, 0.0)}));
+  now_us_ += 3'000'000;
+  give(list_of(10, {object_at(10.0, 0.0)}));
+  const auto burst = tick();
+  ASSERT_EQ(burst.size(), 4U);
+  EXPECT_EQ(read(burst[0]).frame_counter(), 10.0);
+  EXPECT_EQ(gate_.num_overflowed(), 10);
 }
 
 TEST(CanObjectsWire, KeepsTheNearestAndCountsTheRest) {
@@ -177,7 +237,7 @@ TEST(CanObjectsWire, KeepsTheNearestAndCountsTheRest) {
   objects[3].status = object_t::STATUS_NOT_LOCALISED;
   objects[3].position_ground_m[0] = kNan;  // no other value of it is valid
   CanObjects list;
-  ASSERT_EQ(from_wire(list_of(9, objects, 2), test::default_messages(), &list), nullptr);
+  ASSERT_EQ(test::from_wire(list_of(9, objects, 2), test::default_messages(), &list), nullptr);
   ASSERT_EQ(list.counts.num_objects, kMaxCanObjects);
   EXPECT_EQ(list.counts.num_left_out, 20 - 8 + 2);
   double last = 0.0;
@@ -194,7 +254,7 @@ TEST(CanObjectsWire, RefusesABrokenMessage) {
   const auto refused = [&list](void (*spoil)(objects_t*)) {
     objects_t message = list_of(1, {object_at(5.0, 0.0), object_at(6.0, 0.0)});
     spoil(&message);
-    return from_wire(message, test::default_messages(), &list) != nullptr;
+    return test::from_wire(message, test::default_messages(), &list) != nullptr;
   };
   EXPECT_FALSE(refused([](objects_t*) {}));
   EXPECT_TRUE(refused([](objects_t* m) { m->seq = -1; }));

@@ -8,6 +8,7 @@
 
 #include "core/numbers.hpp"
 #include "modules/can/can_wire.hpp"
+#include "tests/can/from_wire.hpp"
 #include "tests/can/recording_sink.hpp"
 
 namespace plumb::test {
@@ -71,8 +72,15 @@ class GateFixture : public ::testing::Test {
     hear(make_plane(seq));
     hear(make_ego(seq));
   }
-  void hear(const ground_plane_t& plane) { gate_.on_ground_plane(sample_of(plane), now_us_); }
-  void hear(const ego_motion_t& ego) { gate_.on_ego_motion(sample_of(ego), now_us_); }
+  /// The image was taken just now, unless the message says otherwise.
+  void hear(ground_plane_t plane) {
+    if (plane.capture_mono_us == 0) plane.capture_mono_us = now_us_;
+    gate_.on_ground_plane(sample_of(plane), now_us_);
+  }
+  void hear(ego_motion_t ego) {
+    if (ego.capture_mono_us == 0) ego.capture_mono_us = now_us_;
+    gate_.on_ego_motion(sample_of(ego), now_us_);
+  }
   void tick(int num_ticks = 1) {
     for (int i = 0; i < num_ticks; ++i) {
       gate_.tick(now_us_, sink_);

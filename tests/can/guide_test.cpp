@@ -12,6 +12,7 @@
 #include "plumb_paths.hpp"
 #include "tests/can/gate_fixture.hpp"
 #include "tests/can/receiver.h"
+#include "tests/can/sums.h"
 
 extern "C" bool receiver_is_fresh(const Receiver* r, std::uint32_t now_ms);
 
@@ -80,6 +81,49 @@ TEST(CanGuide, TheReceiverTellsAgeAndAbsence) {
   EXPECT_FALSE(ego_speed(frame.data.data(), &speed_m_s));
   EXPECT_TRUE(receiver_is_fresh(&receiver, 150));
   EXPECT_FALSE(receiver_is_fresh(&receiver, 151));
+}
+
+TEST(CanGuide, TheReceiverReadsTheAgeOfTheFrame) {
+  CanGate gate{CanConfig{}, default_messages()};
+  test::RecordingSink sink;
+  CanSample ego = test::sample_of(test::make_ego(1));
+  ego.capture_mono_us = 1'000'000;
+  gate.on_ego_motion(ego, 1'000'000);
+  gate.on_ground_plane(test::sample_of(test::make_plane(1)), 1'000'000);
+  gate.tick(1'123'000, sink);
+  double age_s = 0.0;
+  bool is_known = false;
+  for (const test::Sent& s : sink.sent) {
+    if (s.frame.id == test::message_named("Frame").address.id)
+      is_known = frame_age(s.frame.data.data(), &age_s);
+  }
+  EXPECT_TRUE(is_known);
+  EXPECT_NEAR(age_s, 0.123, 1e-9);
+  const CanFrame unknown = [] {
+    MessageValues values;
+    values.fill(kNotAvailable);
+    return encode(test::message_named("Frame"), values, {});
+  }();
+  EXPECT_FALSE(frame_age(unknown.data.data(), &age_s));
+}
+
+TEST(CanGuide, TheReceiverNoticesThatSumsBeganAnew) {
+  Continuity continuity{false, 0, 0};
+  EXPECT_FALSE(continues(&continuity, 3, 7));
+  EXPECT_TRUE(continues(&continuity, 3, 7));
+  EXPECT_FALSE(continues(&continuity, 4, 7));
+  EXPECT_TRUE(continues(&continuity, 4, 7));
+  EXPECT_FALSE(continues(&continuity, 4, 8));
+}
+
+TEST(CanGuide, TheReceiverTakesDifferencesAcrossTheTurn) {
+  for (const double start_m : {0.0, 39'999.0, -40'001.0, 999'999.0, 2e6}) {
+    const SignalLayout position = wrapping({24, 24, 0.005, -40'000.0}, 80'000.0);
+    const double before_m = to_physical(position, to_raw(position, start_m));
+    const double now_m = to_physical(position, to_raw(position, start_m + 2.5));
+    EXPECT_NEAR(travelled(now_m, before_m, 80'000.0), 2.5, 0.0051) << start_m;
+    EXPECT_NEAR(travelled(before_m, now_m, 80'000.0), -2.5, 0.0051) << start_m;
+  }
 }
 
 class CanGuideText : public ::testing::Test {

@@ -52,3 +52,11 @@ static inline bool ego_speed(const uint8_t data[8], double* speed_m_s) {
 
 /* EgoMotion_Validity: 0 invalid, 1 degraded, 2 valid, 3 not available. */
 static inline unsigned ego_validity(const uint8_t data[8]) { return data[1] >> 4 & 3; }
+
+/* Frame_Age of PLB_Frame: 24|12@1+ (0.001,0), at transmission. False: not available. */
+static inline bool frame_age(const uint8_t data[8], double* age_s) {
+  const uint16_t raw = (uint16_t)(data[3] | (data[4] & 0x0F) << 8);
+  if (raw == 0xFFF) return false;
+  *age_s = raw * 0.001;
+  return true;
+}

@@ -118,7 +118,7 @@ TEST_F(PlausibilityTest, WhatIsNotMeasuredIsNotAvailable) {
   drive(5);
   const auto verdict = judge_.update({.interval_s = kInterval});
   for (std::size_t s = 0; s < kNumVehicleSignals; ++s)
-    EXPECT_EQ(verdict[static_cast<VehicleSignal>(s)], Reason::kNotAvailable) << s;
+    EXPECT_EQ(verdict[static_cast<VehicleSignal>(s)], Reason::kNotMeasured) << s;
 }
 
 TEST_F(PlausibilityTest, ADoubtfulIntervalMakesNoSpeed) {

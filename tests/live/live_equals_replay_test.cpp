@@ -57,13 +57,16 @@ Expected replay(const std::string& log) {
 }
 
 // Returns what was sent about each camera frame, by CAN identifier and place in a list of objects.
-// CRCs, alive counters and repeats are left out. So are bursts that say "not available" because
-// there is no input: they follow the end of the log live, but not in the replay.
+// CRCs, alive counters and repeats are left out, and so are ages and the start of the count of
+// resets. So are bursts that say "not available" because there is no input: they follow the end of
+// the log live, but not in the replay.
 std::map<std::uint32_t, std::vector<std::string>> said_on_can(const std::string& path) {
   constexpr std::uint32_t kFirstId = 0x3A0;
   constexpr std::uint32_t kStatusId =
       0x3A7;  // this one and the next have counters and times of the process
+  constexpr std::uint32_t kDistanceId = 0x3A6;
   constexpr std::uint32_t kMountId = 0x3A9;
+  constexpr std::uint32_t kAgeId = 0x3AA;
   constexpr std::uint32_t kListId = 0x3B0;  // the objects follow
   std::map<std::uint32_t, std::vector<std::string>> said;
   CanTraceReader reader(path);
@@ -71,7 +74,9 @@ std::map<std::uint32_t, std::vector<std::string>> said_on_can(const std::string&
   std::int64_t time_us = 0;
   while (reader.next(&time_us, &frame)) {
     EXPECT_GE(frame.id, kFirstId);
-    if (frame.id == kStatusId || frame.id == kStatusId + 1) continue;
+    if (frame.id == kStatusId || frame.id == kStatusId + 1 || frame.id == kAgeId) continue;
+    if (frame.id == kDistanceId) frame.data[6] = 0;              // OdomDist_ResetCtr
+    if (frame.id == kListId) frame.data[4] = frame.data[5] = 0;  // ObjList_Age
     const bool four_bits =
         frame.id == 0x3A1 || frame.id == 0x3A3 || frame.id == kMountId || frame.id == kListId;
     const int flags =

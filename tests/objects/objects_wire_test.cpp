@@ -217,6 +217,7 @@ class ObjectsNodeTest : public testing::Test {
     ego_motion_t ego{};
     to_wire(output, &plane);
     to_wire(output, &ego);
+    plane.capture_mono_us = 7'000'000 + output.capture_us;
     if (const char* why = node_.take_plane(plane)) return why;
     return node_.take_ego(ego);
   }
@@ -242,6 +243,7 @@ TEST_F(ObjectsNodeTest, ProcessesDetectionsWithThePlaneOfTheirImage) {
   ASSERT_EQ(published_.size(), 1u);
   EXPECT_EQ(published_[0].seq, 1);
   EXPECT_EQ(published_[0].num_objects, 2);
+  EXPECT_EQ(published_[0].capture_mono_us, 7'100'000) << "that of the plane";
   EXPECT_NE(published_[0].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
 }
 
@@ -269,6 +271,7 @@ TEST_F(ObjectsNodeTest, DetectionsWaitForTheirPlaneAndGoOnWithoutIt) {
   ASSERT_EQ(node_.take_detections(sound(2)), nullptr);
   node_.expire();
   ASSERT_EQ(published_.size(), 2u);
+  EXPECT_EQ(published_[1].capture_mono_us, 0) << "not known without the plane";
   EXPECT_EQ(published_[1].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
   EXPECT_TRUE(std::isnan(published_[1].objects[0].velocity_ground_m_s[0]));
 }

@@ -28,22 +28,27 @@ constexpr Signal kObjectListSignals[] = {
     {"ObjList_Count",
      {12, 4},
      "",
-     when_received<Counts>([](const Counts& c) { return c.num_objects; }),
+     when_valid<Counts>([](const Counts& c) { return c.num_objects; }),
      "Number of objects that follow in this burst, 0 to 8, the nearest ones.",
      {},
-     "the newest list is too old"},
+     "the newest list is too old, or its age is not known"},
     {"ObjList_FrameCtr",
      {16, 8, 1.0, 0.0, false},
      "",
      {Framing::kFrameCounter},
      "Low 8 bits of the sequence number of the camera frame that was searched; messages with the "
      "same value belong together. All 256 values are counts, there is no value for not available."},
-    {"ObjList_NumLeftOut",
-     {24, 8},
-     "",
-     when_received<Counts>([](const Counts& c) { return c.num_left_out; }),
+    {"ObjList_NumLeftOut", staying({24, 8}), "",
+     when_valid<Counts>([](const Counts& c) { return c.num_left_out; }),
      "Objects of this frame that are not sent: further away than those that are, or without a "
      "place on the road; stays at 254."},
+    {"ObjList_Age",
+     {32, 12, 0.001},
+     "s",
+     when_received<Counts>([](const Counts& c) { return c.age_s; }),
+     "Time since the capture of the camera frame that was searched.",
+     {},
+     "it is not known"},
 };
 static_assert(fit_message(kObjectListSignals));
 
@@ -64,13 +69,15 @@ constexpr Signal kObjectPositionSignals[] = {
     {"Obj#_PosX",
      {24, 12, 0.05, -4.0},
      "m",
-     when_received<Object>([](const Object& o) { return o.position_ground_m[0]; }),
+     with_deviation("Obj#_PosXStd",
+                    when_received<Object>([](const Object& o) { return o.position_ground_m[0]; })),
      "Middle of the object's footprint, along x of ISO 8855 (forward) from the road under the "
      "camera, forward positive."},
     {"Obj#_PosY",
      {36, 12, 0.05, -102.4},
      "m",
-     when_received<Object>([](const Object& o) { return o.position_ground_m[1]; }),
+     with_deviation("Obj#_PosYStd",
+                    when_received<Object>([](const Object& o) { return o.position_ground_m[1]; })),
      "Middle of the object's footprint, along y of ISO 8855 (left) from the road under the "
      "camera, left positive."},
     {"Obj#_PosXStd",
@@ -102,17 +109,17 @@ constexpr Signal kObjectMotionSignals[] = {
     {"Obj#_VelX",
      {24, 12, 0.05, -102.4},
      "m/s",
-     when_received<Object>([](const Object& o) {
-       return velocity_is_known(o) ? o.velocity_ground_m_s[0] : kNotAvailable;
-     }),
+     with_deviation("Obj#_VelXStd", when_received<Object>([](const Object& o) {
+                      return velocity_is_known(o) ? o.velocity_ground_m_s[0] : kNotAvailable;
+                    })),
      "Velocity of the object over ground, along x of ISO 8855 (forward), forward positive. Not "
      "available while the camera's own motion is not known."},
     {"Obj#_VelY",
      {36, 12, 0.02, -40.96},
      "m/s",
-     when_received<Object>([](const Object& o) {
-       return velocity_is_known(o) ? o.velocity_ground_m_s[1] : kNotAvailable;
-     }),
+     with_deviation("Obj#_VelYStd", when_received<Object>([](const Object& o) {
+                      return velocity_is_known(o) ? o.velocity_ground_m_s[1] : kNotAvailable;
+                    })),
      "Velocity of the object over ground, along y of ISO 8855 (left), to the left positive."},
     {"Obj#_VelXStd",
      {48, 8, 0.05},
@@ -143,7 +150,8 @@ constexpr Signal kObjectStateSignals[] = {
     {"Obj#_Id",
      {24, 8},
      "",
-     when_received<Object>([](const Object& o) { return modulo_255(o.track_id); }),
+     when_received<Object>(
+         [](const Object& o) { return modulo_255(static_cast<std::uint32_t>(o.track_id)); }),
      "Number of the track, modulo 255; the same over frames."},
     {"Obj#_Class",
      {32, 4},
@@ -157,14 +165,10 @@ constexpr Signal kObjectStateSignals[] = {
      when_received<Object>([](const Object& o) { return o.status; }),
      "Whether this frame measured the object.",
      kObjectStatusNames},
-    {"Obj#_Age",
-     {39, 9, 0.1},
-     "s",
+    {"Obj#_Age", staying({39, 9, 0.1}), "s",
      when_received<Object>([](const Object& o) { return o.age_s; }),
      "Time since the track began; stays at 51.0."},
-    {"Obj#_TimeToCollision",
-     {48, 9, 0.05},
-     "s",
+    {"Obj#_TimeToCollision", staying({48, 9, 0.05}), "s",
      when_received<Object>([](const Object& o) {
        return std::isfinite(o.time_to_collision_s) ? o.time_to_collision_s : kNotAvailable;
      }),

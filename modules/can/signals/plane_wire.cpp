@@ -2,16 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/can/judge_wire.hpp"
 #include "modules/can/signals/rows.hpp"
 #include "modules/can/signals/signal_tables.hpp"
-#include "modules/can/validity_wire.hpp"
-#include "plumb/ground_plane_t.hpp"
 #include "plumb/status_names.hpp"
 
 namespace plumb {
 namespace {
 
-using Plane = ground_plane_t;
+using Plane = JudgedPlane;
 
 // The signal has four bits, and 15 stands for "not available".
 constexpr int kNumCueBits = 3;
@@ -31,27 +30,30 @@ constexpr Signal kGroundPlaneSignals[] = {
     {"GroundPlane_Validity",
      {12, 2},
      "",
-     when_received<Plane>([](const Plane& m) { return validity_of(m); }),
+     validity_of_group<Plane>(Group::kMain),
      "What the ground plane's values are worth: 0 invalid (they are sent as not available), 1 "
-     "degraded (predicted, see the standard deviation), 2 valid.",
+     "degraded (predicted, see the standard deviation, or one value is not available), 2 valid.",
      kValidityNames,
-     "there is no input or it is too old"},
+     kNoFreshInput},
     frame_counter("GroundPlane_FrameCtr"),
     {"GroundPlane_Pitch",
      {24, 16, 0.00002, -0.65536},
      "rad",
-     when_valid<Plane>([](const Plane& m) { return m.pitch_rad; }),
+     wanted(with_deviation("GroundDetail_PitchStd",
+                           when_valid<Plane>([](const Plane& m) { return m.pitch_rad; }))),
      "Pitch of the camera against the local road, about y of ISO 8855 (left): nose DOWN positive."},
     {"GroundPlane_Roll",
      {40, 12, 0.0002, -0.4096},
      "rad",
-     when_valid<Plane>([](const Plane& m) { return m.roll_rad; }),
+     wanted(with_deviation("GroundDetail_RollStd",
+                           when_valid<Plane>([](const Plane& m) { return m.roll_rad; }))),
      "Roll of the camera against the local road, about x of ISO 8855 (forward): right side down "
      "positive."},
     {"GroundPlane_Height",
      {52, 12, 0.001},
      "m",
-     when_valid<Plane>([](const Plane& m) { return m.height_m; }),
+     wanted(with_deviation("GroundDetail_HeightStd",
+                           when_valid<Plane>([](const Plane& m) { return m.height_m; }))),
      "Height of the optical centre above the local road, along the road's normal, up positive."},
 };
 static_assert(fit_message(kGroundPlaneSignals));

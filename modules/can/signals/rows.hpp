@@ -34,9 +34,11 @@ constexpr Signal frame_counter(const char* name) {
       "the same camera frame. All 256 values are counts, there is no value for not available."};
 }
 
+/// When a validity is "not available".
+inline constexpr const char* kNoFreshInput =
+    "there is no input, it is too old, or its age is not known";
+
 /// A counter that never reaches 255, which stands for "not available".
-constexpr std::uint32_t modulo_255(std::int32_t count) {
-  return static_cast<std::uint32_t>(count) % 255U;
-}
+constexpr std::uint32_t modulo_255(std::uint32_t count) { return count % 255U; }
 
 }  // namespace plumb

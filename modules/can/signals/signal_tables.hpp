@@ -11,6 +11,7 @@ namespace plumb {
 
 [[nodiscard]] std::span<const SignalTable> motion_signals();
 [[nodiscard]] std::span<const SignalTable> plane_signals();
+[[nodiscard]] std::span<const SignalTable> frame_signals();
 [[nodiscard]] std::span<const SignalTable> mount_signals();
 [[nodiscard]] std::span<const SignalTable> status_signals();
 [[nodiscard]] std::span<const SignalTable> object_signals();

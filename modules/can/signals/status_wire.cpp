@@ -1,16 +1,15 @@
 // The signals of the chain's state and of versions. Their reasons come out of the messages.
 
+#include "modules/can/judge_wire.hpp"
 #include "modules/can/signals/rows.hpp"
 #include "modules/can/signals/signal_tables.hpp"
-#include "plumb/ego_motion_t.hpp"
-#include "plumb/ground_plane_t.hpp"
 #include "plumb/status_names.hpp"
 
 namespace plumb {
 namespace {
 
-using Ego = ego_motion_t;
-using Plane = ground_plane_t;
+using Ego = JudgedMotion;
+using Plane = JudgedPlane;
 using State = CanState;
 
 constexpr Signal kStatusSignals[] = {
@@ -20,7 +19,8 @@ constexpr Signal kStatusSignals[] = {
      {12, 3},
      "",
      when_received<State>([](const State& s) { return s.mode; }),
-     "What the whole chain does.",
+     "What the whole chain does. TOO_OLD and AGE_UNKNOWN: there is input, but it is not sent, "
+     "because its image is too old, or because the time of its capture is not known.",
      kModeNames},
     {"Status_EgoStatus",
      {15, 3},
@@ -32,7 +32,8 @@ constexpr Signal kStatusSignals[] = {
      {18, 6},
      "",
      when_received<Ego>([](const Ego& m) { return m.reason; }),
-     "Why the ego motion is not fully valid.",
+     "Why the ego motion is not fully valid; IMPLAUSIBLE also where a value was refused here, see "
+     "Frame_SpeedDoubt.",
      kVoMotionReasonNames},
     {"Status_GroundStatus",
      {24, 3},
@@ -46,24 +47,16 @@ constexpr Signal kStatusSignals[] = {
      when_received<Plane>([](const Plane& m) { return m.reason; }),
      "Why the ground plane is not fully valid, as in GroundDetail_Reason.",
      kGroundPlaneReasonNames},
-    {"Status_NumMissed",
-     {32, 8},
-     "",
+    {"Status_NumMissed", staying({32, 8}), "",
      when_received<State>([](const State& s) { return s.num_missed; }),
      "Camera frames missing by sequence number since start; stays at 254."},
-    {"Status_NumOverflowed",
-     {40, 8},
-     "",
+    {"Status_NumOverflowed", staying({40, 8}), "",
      when_received<State>([](const State& s) { return s.num_overflowed; }),
      "Camera frames dropped because they came faster than they could be sent; stays at 254."},
-    {"Status_NumRejected",
-     {48, 8},
-     "",
+    {"Status_NumRejected", staying({48, 8}), "",
      when_received<State>([](const State& s) { return s.num_rejected; }),
      "Input messages refused since start because they broke their contract; stays at 254."},
-    {"Status_NumUnsent",
-     {56, 8},
-     "",
+    {"Status_NumUnsent", staying({56, 8}), "",
      when_received<State>([](const State& s) { return s.num_unsent; }),
      "CAN frames that the bus did not take since start; stays at 254."},
 };
@@ -92,9 +85,7 @@ constexpr Signal kInfoSignals[] = {
      "",
      when_received<State>([](const State&) { return PLUMB_VERSION_PATCH; }),
      "Program version, patch."},
-    {"Info_Uptime",
-     {48, 16},
-     "s",
+    {"Info_Uptime", staying({48, 16}), "s",
      when_received<State>([](const State& s) { return s.uptime_s; }),
      "Time since start; stays at 65534."},
 };

@@ -4,8 +4,8 @@
     compare.py DBC LIVE REFERENCE
 
 canmatrix, an independent implementation, decodes the frames through the DBC. The comparison omits
-alive counters, CRCs, cyclic repeats, and values that were "not available" because there was no
-input. Code of this file checks the counters and CRCs of the live frames. The script prints what it
+alive counters, CRCs, ages, the start of counters, cyclic repeats, and values that were "not
+available" because there was no input. Code of this file checks the counters and CRCs of the live frames. The script prints what it
 compared, and exits with 1 when anything differs.
 """
 import collections
@@ -59,14 +59,14 @@ class Trace:
         absent = False
         counter = 0 if frame.name == MOUNT else None
         for name, decoded in frame.decode(data).items():
-            if name.endswith(('_Crc', '_AliveCtr')):
+            if name.endswith(('_Crc', '_AliveCtr', '_Age', '_StartCtr', '_ResetCtr')):
                 continue
             if name.endswith('_FrameCtr'):
                 counter = int(decoded.raw_value)
                 continue
             is_na = decoded.signal.values.get(decoded.raw_value) == 'SNA'
             values[name] = 'SNA' if is_na else float(decoded.phys_value)
-            says_absence = name.endswith(('_Validity', 'Detail_Status', 'Mount_Status', 'List_Count'))
+            says_absence = name.endswith(('_Validity', 'Detail_Status', 'Mount_Status', 'List_Count', 'Frame_SpeedDoubt'))
             absent = absent or (is_na and says_absence)
             if says_absence:
                 self.last_absent[frame.name] = absent

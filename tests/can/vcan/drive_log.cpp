@@ -2,19 +2,25 @@
 ///
 ///     drive_log LOG            writes GROUND_PLANE, EGO_MOTION, MOUNT and OBJECTS to LOG
 ///     drive_log LOG --trace T  reads a log with these channels, writes its replay's CAN trace to T
+///     drive_log LOG --play URL SPEED   publishes it as if its images were taken at that moment
 ///
-/// The drive has every status, both ends of every range, a lost frame, frames that lost one half,
-/// and lists from no object to more objects than CAN carries.
+/// The drive has every status, values beyond every range, a lost frame, frames that lost one half,
+/// and lists from no object to more objects than CAN carries. In between, a car can drive like it.
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include "core/channels.hpp"
 #include "core/numbers.hpp"
 #include "modules/can/can_wire.hpp"
+#include "platform/bus.hpp"
 #include "platform/can_trace.hpp"
+#include "platform/clock.hpp"
 #include "platform/log_file.hpp"
 
 namespace plumb {
@@ -24,6 +30,8 @@ constexpr int kFirstSeq = 100;  // the 8-bit frame counter wraps on the way
 constexpr int kNumFrames = 200;
 constexpr std::int64_t kFrameUs = 100'000;
 
+std::int64_t time_of(int frame) { return (frame + 1) * kFrameUs; }
+
 /// A sum of sines around `mean`, so that successive frames differ in every signal.
 double wave(int frame, double mean, double amplitude, double period) {
   return mean + amplitude * std::sin(6.283185307179586 * frame / period);
@@ -32,16 +40,16 @@ double wave(int frame, double mean, double amplitude, double period) {
 ego_motion_t ego_of(int frame) {
   ego_motion_t m{};
   m.seq = kFirstSeq + frame;
-  m.utime = frame * kFrameUs;
+  m.utime = m.capture_mono_us = time_of(frame);
   m.status = static_cast<std::int8_t>(frame / 10 % 6);
   m.reason = static_cast<std::int8_t>(frame % 12);
   m.reset_counter = frame / 90;
   // Every 50th frame leaves the ranges on both sides.
   const double wild = frame % 50 == 49 ? 1e6 : frame % 50 == 48 ? -1e6 : 0.0;
-  m.velocity_ground_m_s[0] = wave(frame, 15.0, 20.0, 37.0) + wild;
+  m.velocity_ground_m_s[0] = wave(frame, 15.0, 10.0, 137.0) + wild;
   m.velocity_ground_m_s[1] = wave(frame, 0.0, 0.4, 23.0) - wild;
   m.speed_std_m_s = wave(frame, 0.2, 0.15, 19.0);
-  m.rate_ground_rad_s[2] = wave(frame, 0.0, 0.6, 41.0) + wild;
+  m.rate_ground_rad_s[2] = wave(frame, 0.0, 0.3, 41.0) + wild;
   m.yaw_rate_std_rad_s = wave(frame, 0.01, 0.005, 13.0);
   m.accel_forward_m_s2 = frame % 7 == 0 ? kNan : wave(frame, 0.0, 3.0, 29.0);
   m.accel_forward_std_m_s2 = wave(frame, 0.5, 0.4, 17.0);
@@ -59,7 +67,7 @@ ego_motion_t ego_of(int frame) {
 ground_plane_t plane_of(int frame) {
   ground_plane_t m{};
   m.seq = kFirstSeq + frame;
-  m.utime = frame * kFrameUs;
+  m.utime = m.capture_mono_us = time_of(frame);
   m.status = static_cast<std::int8_t>(frame / 15 % 4);
   m.reason = static_cast<std::int8_t>(frame % 9);
   const double wild = frame % 40 == 39 ? 100.0 : 0.0;
@@ -99,7 +107,7 @@ object_t object_of(int frame, int index) {
 objects_t objects_of(int frame) {
   objects_t m{};
   m.seq = kFirstSeq + frame;
-  m.utime = frame * kFrameUs;
+  m.utime = m.capture_mono_us = time_of(frame);
   m.num_objects = frame % 12;
   for (int i = 0; i < m.num_objects; ++i) m.objects.push_back(object_of(frame, i));
   m.num_refused = frame % 50 == 49 ? 1'000 : 0;
@@ -108,7 +116,7 @@ objects_t objects_of(int frame) {
 
 mount_t mount_of(int frame) {
   mount_t m{};
-  m.utime = frame * kFrameUs;
+  m.utime = time_of(frame);
   m.status = static_cast<std::int8_t>(frame / 10 % 4);
   m.reason = static_cast<std::int8_t>(frame / 10 % 5);
   m.progress = 0.005 * frame;
@@ -171,6 +179,34 @@ bool write_trace(const char* log_path, const char* trace_path) {
   return trace.flush();
 }
 
+/// Publishes a message with the present as the time of its image.
+template <typename MessageType>
+bool publish(Bus& bus, const LogEvent& event, const Channel& channel, MessageType* message) {
+  if (!take(event, channel, message)) return false;
+  if constexpr (requires { message->capture_mono_us; }) message->capture_mono_us = monotonic_us();
+  Publisher<MessageType>(bus, channel).publish(*message);
+  return true;
+}
+
+void play(const char* log_path, const char* url, double speed) {
+  Counters counters;
+  Bus bus(url, &counters);
+  LogReader log(log_path);
+  ground_plane_t plane;
+  ego_motion_t ego;
+  objects_t objects;
+  mount_t mount;
+  LogEvent event;
+  const std::int64_t start_us = monotonic_us();
+  while (log.next(&event)) {
+    const auto due_us = start_us + std::llround(static_cast<double>(event.log_us) / speed);
+    const std::int64_t wait_us = due_us - monotonic_us();
+    if (wait_us > 0) std::this_thread::sleep_for(std::chrono::microseconds(wait_us));
+    (void)(publish(bus, event, kGroundPlane, &plane) || publish(bus, event, kEgoMotion, &ego) ||
+           publish(bus, event, kObjects, &objects) || publish(bus, event, kMount, &mount));
+  }
+}
+
 }  // namespace
 }  // namespace plumb
 
@@ -183,10 +219,14 @@ int main(int argc, char** argv) {
     if (argc == 4 && std::strcmp(argv[2], "--trace") == 0) {
       return plumb::write_trace(argv[1], argv[3]) ? 0 : 1;
     }
+    if (argc == 5 && std::strcmp(argv[2], "--play") == 0) {
+      plumb::play(argv[1], argv[3], std::atof(argv[4]));
+      return 0;
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "drive_log: %s\n", error.what());
     return 1;
   }
-  std::fprintf(stderr, "usage: drive_log LOG [--trace TRACE]\n");
+  std::fprintf(stderr, "usage: drive_log LOG [--trace TRACE | --play URL SPEED]\n");
   return 2;
 }

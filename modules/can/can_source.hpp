@@ -1,0 +1,38 @@
+/// Lets one sender of a channel through: the one that is heard, until it falls silent.
+///
+/// Session:
+///   Each run of a process has one, which its messages carry.
+/// Restart:
+///   A process that begins anew has another session. It is taken when the earlier one has been
+///   silent for `silent_us`, and at the latest after kMaxRefused messages in a row, so that a
+///   restart costs little and two senders at the same time never mix.
+/// Memory:
+///   A few numbers.
+#pragma once
+
+#include <cstdint>
+
+namespace plumb {
+
+class CanSourceGuard {
+ public:
+  static constexpr int kMaxRefused = 6;  ///< three images of two messages
+
+  explicit CanSourceGuard(std::int64_t silent_us) : silent_us_(silent_us) {}
+
+  /// Returns whether a message of this session may be used.
+  [[nodiscard]] bool take(std::int64_t session, std::int64_t now_us);
+
+  [[nodiscard]] std::int64_t num_refused() const { return num_refused_; }
+
+ private:
+  std::int64_t silent_us_;
+  bool has_session_ = false;
+  std::int64_t session_ = 0;
+  std::int64_t heard_us_ = 0;
+  std::int64_t challenger_ = 0;
+  int num_challenges_ = 0;  ///< messages of the challenger since the last one of the session
+  std::int64_t num_refused_ = 0;
+};
+
+}  // namespace plumb
