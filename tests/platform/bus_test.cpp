@@ -102,7 +102,7 @@ TEST(BoundedDecode, RefusesHostileCountsAndTextLengths) {
     detections_t detections;
     EXPECT_FALSE(decode_bounded(list, &detections)) << hostile;
     list = encoded(objects_t{});
-    put_i32(&list, 24, hostile);
+    put_i32(&list, 32, hostile);
     objects_t objects;
     EXPECT_FALSE(decode_bounded(list, &objects)) << hostile;
     Bytes text = encoded(sample_health());
