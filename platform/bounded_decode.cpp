@@ -44,7 +44,7 @@ bool lengths_are_valid(std::span<const std::uint8_t> bytes, const process_health
   (void)cursor.text();
   cursor.skip(1);
   (void)cursor.text();
-  cursor.skip(6 * 8 + 4 + 2 * 8);
+  cursor.skip(8 * 8 + 4 + 2 * 8);
   const std::int32_t count = cursor.i32();
   if (!cursor.ok() || count < 0 || count > kMaxStages) return false;
   for (std::int32_t i = 0; i < count; ++i) {

@@ -10,9 +10,10 @@ namespace {
 
 class VoProcess {
  public:
-  VoProcess(plumb::Process& process, const plumb::VoConfig& config, std::uint64_t seed)
+  VoProcess(plumb::Process& process, const plumb::PlumbConfig& config, std::uint64_t seed)
       : process_(process),
-        node_(config, seed, &process.timer()),
+        max_wait_us_(config.images.max_wait_us()),
+        node_(config.vo, seed, &process.timer()),
         motion_(process.bus(), plumb::kVoMotion),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
@@ -30,15 +31,27 @@ class VoProcess {
   }
 
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
+    plumb::ImageFrame header;
+    if (const char* why = plumb::read_image(bytes, &header)) return why;
+    (void)arrivals_.take(header.seq);
+    process_.counters().num_dropped = arrivals_.num_lost();
+    if (camera_.is_overtaken(max_wait_us_)) {
+      camera_.skip();
+      return nullptr;
+    }
     const char* refused = node_.take_image(bytes, camera_.arrival_us());
-    if (node_.motion() != nullptr) motion_.publish(*node_.motion());
+    if (node_.motion() != nullptr) {
+      camera_.set_capture_us(node_.motion()->capture_mono_us);
+      motion_.publish(*node_.motion());
+    }
     if (refused == nullptr) process_.timer().end();
-    process_.counters().num_dropped = node_.num_lost();
     return refused;
   }
 
   plumb::Process& process_;
+  std::int64_t max_wait_us_;
   plumb::VoNode node_;
+  plumb::LossCounter arrivals_;  ///< of the images, skipped ones included
   plumb::Publisher<plumb::vo_motion_t> motion_;
   plumb::Subscriber<plumb::camera_calibration_t> calibration_;
   plumb::RawSubscriber camera_;
@@ -56,5 +69,5 @@ int main(int argc, char** argv) {
     app.add_option("--seed", seed, "seed of the random sampling; default 1");
   });
   std::optional<VoProcess> vo;
-  return process.run(argc, argv, &config, [&] { vo.emplace(process, config.vo, seed); });
+  return process.run(argc, argv, &config, [&] { vo.emplace(process, config, seed); });
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "platform/clock.hpp"
@@ -211,11 +212,46 @@ TEST_F(BusTest, CountsAMessageThatWaitedTooLongAsLate) {
   bus_.handle(0);
   EXPECT_EQ(1, counters_.num_late);
   EXPECT_GE(in.last_us() - in.arrival_us(), 60'000);
+}
+
+TEST_F(BusTest, CountsAMessageAsLateByTheTimeOfItsCaptureWhereThatIsKnown) {
+  static constexpr Channel kImpatient{"IMPATIENT", "test", 10.0, 20'000};
+  Subscriber<vo_motion_t> in(bus_, kImpatient, Input::kPeriodic,
+                             [](const vo_motion_t&) { return nullptr; });
+  const auto handle = [&](std::int64_t capture_us) {
+    vo_motion_t motion{};
+    motion.capture_mono_us = capture_us;
+    bus_.publish(kImpatient, encoded(motion));
+    bus_.handle(0);
+    return counters_.num_late;
+  };
+  EXPECT_EQ(0, handle(0)) << "not known";
+  EXPECT_EQ(0, handle(monotonic_us()));
+  EXPECT_EQ(1, handle(monotonic_us() - 30'000)) << "it came at once, and shows what is 30 ms old";
+  EXPECT_EQ(1, handle(monotonic_us() + 3'600'000'000)) << "no capture lies in the future";
+  EXPECT_EQ(1, handle(std::numeric_limits<std::int64_t>::min()));
+  EXPECT_EQ(2, handle(1));
+}
+
+TEST_F(BusTest, SaysWhetherAMessageWasOvertakenAndCountsItAsSkippedInsteadOfLate) {
+  static constexpr Channel kImpatient{"IMPATIENT", "test", 10.0, 20'000};
+  std::vector<bool> overtaken;
+  RawSubscriber in(bus_, kImpatient, Input::kPeriodic, [&](RawSubscriber::Bytes) {
+    overtaken.push_back(in.is_overtaken(30'000));
+    if (overtaken.back()) in.skip();
+    return nullptr;
+  });
   bus_.publish(kImpatient, Bytes{1});
+  bus_.publish(kImpatient, Bytes{2});
+  bus_.handle(0);
   usleep(60'000);
-  bus_.handle(0, monotonic_us() - 1'000);
-  EXPECT_EQ(1, counters_.num_late)
-      << "this thread was idle a moment ago, so the time stamp of the arrival is wrong";
+  bus_.publish(kImpatient, Bytes{3});
+  while (bus_.handle(0)) {
+  }
+  EXPECT_EQ((std::vector<bool>{false, true, false}), overtaken)
+      << "the first one was on time, the second one was not, and none was newer than the third";
+  EXPECT_EQ(1, counters_.num_skipped);
+  EXPECT_EQ(0, counters_.num_late);
 }
 
 TEST_F(BusTest, GivesTheNewestMessageAloneWhereItsReaderAsksForIt) {

@@ -66,7 +66,7 @@ TEST_F(HealthTest, PutsAConditionBeforeEverythingElse) {
 }
 
 TEST_F(HealthTest, ReportsCountersStagesAndMemory) {
-  counters_ = {1, 2, 3, 4, 5, 6, ""};
+  counters_ = {1, 2, 3, 4, 5, 6, 7, 8, ""};
   timer_.begin();
   timer_.mark("track");
   timer_.end();
@@ -79,6 +79,8 @@ TEST_F(HealthTest, ReportsCountersStagesAndMemory) {
   EXPECT_EQ(4, m.num_late);
   EXPECT_EQ(5, m.num_published);
   EXPECT_EQ(6, m.num_unsent);
+  EXPECT_EQ(7, m.num_skipped);
+  EXPECT_EQ(8, m.num_unpaired);
   ASSERT_EQ(2, m.num_stages);
   EXPECT_EQ("track", m.stages[0].name);
   EXPECT_EQ("total", m.stages[1].name);
