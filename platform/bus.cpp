@@ -139,8 +139,9 @@ std::int64_t RawSubscriber::num_skipped() const {
   return bus_.transport_->num_skipped(subscription_);
 }
 
-bool RawSubscriber::is_overtaken(std::int64_t limit_us) const {
-  return last_us_ - arrival_us_ > limit_us && bus_.transport_->num_waiting(subscription_) > 0;
+bool RawSubscriber::is_overtaken(std::int64_t limit_us, std::int64_t ready_us) const {
+  return last_us_ - std::max(arrival_us_, ready_us) > limit_us &&
+         bus_.transport_->num_waiting(subscription_) > 0;
 }
 
 void RawSubscriber::skip() {

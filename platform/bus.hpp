@@ -128,9 +128,10 @@ class RawSubscriber {
 
   // For the handler, about the message that it handles:
 
-  /// Did it reach this machine more than `limit_us` ago while a newer one of its channel waits? The
-  /// slots tell, which are filled from the socket before each message.
-  [[nodiscard]] bool is_overtaken(std::int64_t limit_us) const;
+  /// Has it waited for more than `limit_us` while a newer one of its channel waits? The wait counts
+  /// from its arrival on this machine, and not before the time `ready_us`. The slots tell what
+  /// waits; they are filled from the socket before each message.
+  [[nodiscard]] bool is_overtaken(std::int64_t limit_us, std::int64_t ready_us = 0) const;
   /// It is left out because a newer one waits: counts it as skipped and never as late.
   void skip();
   /// [us] What it shows was captured at this monotonic time, 0 when that is not known. A message is

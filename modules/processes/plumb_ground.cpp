@@ -42,7 +42,10 @@ class GroundProcess {
   const char* on_calibration(const plumb::camera_calibration_t& message) {
     const bool waited = !node_.calibrated();
     const char* refused = node_.take_calibration(message);
-    if (waited && node_.calibrated()) process_.health().clear_condition();
+    if (waited && node_.calibrated()) {
+      ready_us_ = plumb::monotonic_us();
+      process_.health().clear_condition();
+    }
     return refused;
   }
 
@@ -52,7 +55,7 @@ class GroundProcess {
     if (const char* why = plumb::read_image(bytes, &header)) return why;
     (void)arrivals_.take(header.seq);
     const char* refused = nullptr;
-    if (camera_.is_overtaken(max_wait_us_)) {
+    if (camera_.is_overtaken(max_wait_us_, ready_us_)) {
       camera_.skip();
       skipped_seq_ = header.seq;
       skipped_capture_us_ = header.capture_us;
@@ -113,6 +116,7 @@ class GroundProcess {
 
   plumb::Process& process_;
   std::int64_t max_wait_us_;
+  std::int64_t ready_us_ = 0;  ///< monotonic time at which the estimator had been created
   plumb::TrainedModels models_;
   plumb::GroundNode node_;
   plumb::LossCounter arrivals_;    ///< of the images, skipped ones included

@@ -4,6 +4,7 @@
 
 #include "modules/chain/plumb_config.hpp"
 #include "modules/vo/vo_node.hpp"
+#include "platform/clock.hpp"
 #include "platform/process.hpp"
 
 namespace {
@@ -26,7 +27,10 @@ class VoProcess {
  private:
   const char* on_calibration(const plumb::camera_calibration_t& message) {
     const char* refused = node_.take_calibration(message);
-    if (node_.calibrated()) process_.health().clear_condition();
+    if (ready_us_ == 0 && node_.calibrated()) {
+      ready_us_ = plumb::monotonic_us();
+      process_.health().clear_condition();
+    }
     return refused;
   }
 
@@ -35,7 +39,7 @@ class VoProcess {
     if (const char* why = plumb::read_image(bytes, &header)) return why;
     (void)arrivals_.take(header.seq);
     process_.counters().num_dropped = arrivals_.num_lost();
-    if (camera_.is_overtaken(max_wait_us_)) {
+    if (camera_.is_overtaken(max_wait_us_, ready_us_)) {
       camera_.skip();
       return nullptr;
     }
@@ -50,6 +54,7 @@ class VoProcess {
 
   plumb::Process& process_;
   std::int64_t max_wait_us_;
+  std::int64_t ready_us_ = 0;  ///< monotonic time at which the estimator had been created
   plumb::VoNode node_;
   plumb::LossCounter arrivals_;  ///< of the images, skipped ones included
   plumb::Publisher<plumb::vo_motion_t> motion_;

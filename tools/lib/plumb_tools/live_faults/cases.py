@@ -11,7 +11,6 @@ BEGIN_S = 4.0  # the chain is valid by then
 SLOW_S = 6.0
 RUNNING_S = 0.004
 SOUND_S = 2.5  # of sound input after a fault, so that its end can be judged
-INPUTS = 'CAMERA|CAMERA_CALIBRATION|DETECTIONS'
 
 
 @dataclass(frozen=True)
@@ -27,6 +26,10 @@ class Case:
     change: Optional[Callable] = None  # makes the function of a wire.Relay between camera and vo, and the rest
     recovers: bool = True
     plays_recording: bool = False
+
+
+def _begin(run):
+    run.begin()
 
 
 def _sound(run):
@@ -144,7 +147,7 @@ def _slows():
 
 def all_cases():
     """{name: Case} in the order of the table."""
-    cases = [Case('sound', '-', 'nothing', _sound)]
+    cases = [Case('sound', '-', 'nothing', _begin, needs_s=2.0)]
     cases += [*_slows(), *_stops(), *_restarts()]
     cases += [Case(f'{name}_unread', 'K', f"a full pipe that nobody reads is {name}'s stderr", _refuse_much,
                    BEGIN_S + 3.0 + SOUND_S, deaf=name) for name in ('vo', 'ground', 'can')]

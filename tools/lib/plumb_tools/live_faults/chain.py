@@ -109,7 +109,7 @@ class Chain:
             process.wait()
             self.not_ended.append(f'{name} ignored SIGTERM')
 
-    def play(self, log, channels='CAMERA|CAMERA_CALIBRATION|DETECTIONS'):
+    def play(self, log, channels):
         """Starts lcm-logplayer and returns it."""
         player = subprocess.Popen(['lcm-logplayer', '-e', channels, '-l', wire.url(self.source_port), str(log)],
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

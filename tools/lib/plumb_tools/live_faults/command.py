@@ -12,7 +12,7 @@ from plumb_tools import command_line, programs
 from plumb_tools.command_line import UsageError
 from plumb_tools.live_faults import wire
 from plumb_tools.live_faults.can_trace import Dbc
-from plumb_tools.live_faults.cases import INPUTS, all_cases
+from plumb_tools.live_faults.cases import all_cases
 from plumb_tools.live_faults.chain import NAMES, Chain
 from plumb_tools.live_faults.judge import Drive, judge
 from plumb_tools.markup import markdown_table
@@ -20,6 +20,7 @@ from plumb_tools.markup import markdown_table
 HEAD = ['kind', 'fault', 'what happens', 'valid frames', 'older than 250 ms while valid', 'oldest',
         'wrong while valid', 'worst error', 'time to detect', 'time to recover', 'counted']
 INSIDE = 'PLUMB_LIVE_FAULTS_INSIDE'
+INPUTS = 'CAMERA|CAMERA_CALIBRATION|DETECTIONS'
 RESULTS = ('VO_MOTION', 'GROUND_PLANE', 'EGO_MOTION', 'OBJECTS')
 
 

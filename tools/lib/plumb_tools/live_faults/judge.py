@@ -69,7 +69,7 @@ class Verdict:
     num_wrong: int = 0
     worst_age_s: float = 0.0
     worst_error_m_s: float = 0.0
-    detect_s: float = 0.0      # from the begin of the fault to the last frame that is old or wrong
+    detect_s: float = 0.0        # from the begin of the fault to the last frame within it that is old or wrong
     recover_s: float = math.inf  # from its end to the first valid frame that is neither
 
     def is_kept(self, recovers=True):
@@ -117,7 +117,7 @@ def judge(frames, images, drive, begin_s, end_s):
         verdict.num_wrong += is_wrong
         verdict.worst_age_s = max(verdict.worst_age_s, age_s)
         verdict.worst_error_m_s = max(verdict.worst_error_m_s, error)
-        if (is_old or is_wrong) and begin_s <= time_s:
+        if (is_old or is_wrong) and begin_s <= time_s <= end_s:
             verdict.detect_s = time_s - begin_s
         if not is_old and not is_wrong and time_s >= end_s:
             verdict.recover_s = min(verdict.recover_s, time_s - end_s)
