@@ -8,7 +8,7 @@ from typing import Callable, Optional
 from plumb_tools.live_faults import wire
 
 BEGIN_S = 4.0  # the chain is valid by then
-SLOW_S = 6.0
+SLOW_S = 3.0
 RUNNING_S = 0.004
 SOUND_S = 2.5  # of sound input after a fault, so that its end can be judged
 
