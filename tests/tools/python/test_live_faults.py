@@ -96,6 +96,8 @@ class Verdicts(unittest.TestCase):
         verdict = self.verdict_of((0.01, 2, 250, 8.1, 0.02), (0.7, 2, 1, 8.0, 0.02), (1.9, 1, 250, 0.0, 0.0))
         self.assertEqual((verdict.num_frames, verdict.num_valid, verdict.num_old, verdict.num_wrong), (3, 2, 0, 0))
         self.assertAlmostEqual(verdict.recover_s, 0.01)
+        self.assertAlmostEqual(self.verdict_of((0.3, 2, 252, 8.0, 0.1), (0.35, 2, 253, 8.0, 0.1), end=0.3).recover_s,
+                               0.05, msg='image 252 was captured before the end')
         self.assertTrue(verdict.is_kept())
 
     def test_an_old_image_counts_while_valid_alone(self):
@@ -118,7 +120,7 @@ class Verdicts(unittest.TestCase):
         self.assertTrue(Verdict(num_valid=1000, num_wrong=5, recover_s=1.5).is_kept())
         self.assertFalse(Verdict(num_valid=1000, num_wrong=6, recover_s=1.5).is_kept())
         self.assertFalse(Verdict(num_valid=1000, recover_s=1.6).is_kept())
-        self.assertTrue(Verdict(num_valid=1000).is_kept(recovers=False))
+        self.assertFalse(Verdict(num_valid=1000).is_kept())
 
 
 class CommandLine(support.FolderTest):

@@ -24,7 +24,7 @@ class Case:
     without: tuple = ()  # processes that are not there from the beginning
     deaf: Optional[str] = None  # the process whose stderr nobody reads
     change: Optional[Callable] = None  # makes the function of a wire.Relay between camera and vo, and the rest
-    recovers: bool = True
+    awaits_calibration: bool = False  # after the fault: recovery counts from its arrival
     plays_recording: bool = False
 
 
@@ -131,10 +131,10 @@ def _stops():
 def _restarts():
     for name in ('vo', 'ground', 'can', 'objects'):
         yield Case(f'{name}_restarted', 'J', f'{name} is killed, and started again after 1 s', partial(_kill, name),
-                   BEGIN_S + 1.0 + SOUND_S)
+                   BEGIN_S + 2.0 + SOUND_S, awaits_calibration=name != 'can')
     for name in ('vo', 'ground'):
         yield Case(f'{name}_late', 'J', f'{name} is started {BEGIN_S:.0f} s after the camera',
-                   partial(_start_late, name), without=(name,))
+                   partial(_start_late, name), BEGIN_S + 1.0 + SOUND_S, without=(name,), awaits_calibration=True)
 
 
 def _slows():

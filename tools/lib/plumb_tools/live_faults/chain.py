@@ -131,12 +131,13 @@ class Chain:
         return '; '.join(said + self.not_ended) or '-'
 
     def growth_mb(self, since_s):
-        """The largest growth of a process's memory since that time, in MB."""
+        """The largest growth of a process's memory over its last report before that time, in MB."""
         growth = 0.0
         for name in NAMES:
-            reports = [self.types.process_health_t.decode(data) for arrival_s, data in self.health(name)
-                       if arrival_s >= since_s]
-            if reports:
-                bytes_used = [report.memory_rss_bytes for report in reports]
-                growth = max(growth, (max(bytes_used) - bytes_used[0]) * 1e-6)
+            before, after = [], []
+            for arrival_s, data in self.health(name):
+                report = self.types.process_health_t.decode(data)
+                (before if arrival_s < since_s else after).append(report.memory_rss_bytes * 1e-6)
+            if before and after:
+                growth = max(growth, max(after) - before[-1])
         return growth

@@ -14,7 +14,7 @@ from plumb_tools.live_faults import wire
 from plumb_tools.live_faults.can_trace import Dbc
 from plumb_tools.live_faults.cases import all_cases
 from plumb_tools.live_faults.chain import NAMES, Chain
-from plumb_tools.live_faults.judge import Drive, judge
+from plumb_tools.live_faults.judge import Drive, capture_times, judge
 from plumb_tools.markup import markdown_table
 
 HEAD = ['kind', 'fault', 'what happens', 'valid frames', 'older than 250 ms while valid', 'oldest',
@@ -58,34 +58,34 @@ class Run:
 
 
 def run_case(case, options, types, dbc, drive, log):
-    """Runs one case. Returns (cells of the table, whether the bars hold, results as log events)."""
+    """Runs one case. Returns (cells of the table, whether the bars hold, what was heard)."""
     folder = options.out / case.name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     with Chain(options.programs, types, folder, case) as chain:
         run = Run(case, chain, drive, log)
         run.finish()
-        recorded = [(int(1e6 * arrival_s), channel, data) for channel in RESULTS
-                    for arrival_s, data in chain.listener.messages[channel]]
-        first = min((image.arrival_s for image in chain.listener.images), default=0.0)
     frames = sorted((frame for trace in chain.traces if trace.exists()
                      for frame in dbc.read(trace, 'PLB_EgoMotion')), key=lambda frame: frame[0])
-    verdict = judge(frames, chain.listener.images, drive, run.begin_s, run.end_s)
+    end_s = run.end_s
+    if case.awaits_calibration:
+        sent = [arrival_s for arrival_s, _ in chain.listener.messages['CAMERA_CALIBRATION'] if arrival_s > end_s]
+        end_s = min(sent, default=math.inf)
+    verdict = judge(frames, chain.listener.images, drive, run.begin_s, end_s)
     growth_mb = chain.growth_mb(run.begin_s)
     counted = chain.counters() + (f'; memory grew by {growth_mb:.0f} MB' if growth_mb > 2.0 else '')
-    recorded = [(time_us - int(1e6 * first) + drive.stamps[0], channel, data) for time_us, channel, data in recorded]
-    kept = verdict.is_kept(case.recovers) and not chain.not_ended
-    return row(case, verdict, counted), kept, recorded
+    kept = verdict.is_kept() and not chain.not_ended
+    return row(case, verdict, counted), kept, chain.listener
 
 
 def row(case, verdict, counted):
     """The cells of HEAD."""
-    def seconds(value):
-        return f'{value:.2f} s' if math.isfinite(value) else 'never'
+    def seconds(value, otherwise='never'):
+        return f'{value:.2f} s' if math.isfinite(value) else otherwise
     share = verdict.num_wrong / max(verdict.num_valid, 1)
     error = f'{verdict.worst_error_m_s:.1f} m/s' if math.isfinite(verdict.worst_error_m_s) else 'not known'
     return [case.kind, case.name, case.what, f'{verdict.num_valid} of {verdict.num_frames}', str(verdict.num_old),
-            seconds(verdict.worst_age_s), f'{verdict.num_wrong} ({100 * share:.1f} %)', error,
+            seconds(verdict.worst_age_s, 'not known'), f'{verdict.num_wrong} ({100 * share:.1f} %)', error,
             seconds(verdict.detect_s), seconds(verdict.recover_s), counted]
 
 
@@ -100,9 +100,13 @@ def make_types(folder):
     return plumb
 
 
-def with_results(log, recorded, path):
-    """Writes the log with recorded results between its own events."""
-    wire.write_log(path, sorted([*wire.read_log(log), *recorded], key=lambda event: event[0]))
+def with_results(log, listener, path):
+    """Writes the log with the results that were heard while it played, each at its time."""
+    _, stamp_us, capture_s = capture_times(listener.images)[0]
+    offset_us = int(1e6 * capture_s) - stamp_us
+    results = [(int(1e6 * arrival_s) - offset_us, channel, data) for channel in RESULTS
+               for arrival_s, data in listener.messages[channel]]
+    wire.write_log(path, sorted([*wire.read_log(log), *results], key=lambda event: event[0]))
     return path
 
 
@@ -150,9 +154,9 @@ def main():
                 if recorded is None:
                     recorded = run_case(cases['sound'], options, types, dbc, drive, log)[2]
                 log = with_results(log, recorded, pathlib.Path(folder) / 'recording.lcm')
-            cells, holds, results = run_case(case, options, types, dbc, drive, log)
+            cells, holds, heard = run_case(case, options, types, dbc, drive, log)
             if name == 'sound':
-                recorded = results
+                recorded = heard
             kept = kept and holds
             print('| ' + ' | '.join(cells) + ' |', flush=True)
     return 0 if kept else 1

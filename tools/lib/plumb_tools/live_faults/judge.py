@@ -70,12 +70,12 @@ class Verdict:
     worst_age_s: float = 0.0
     worst_error_m_s: float = 0.0
     detect_s: float = 0.0        # from the begin of the fault to the last frame within it that is old or wrong
-    recover_s: float = math.inf  # from its end to the first valid frame that is neither
+    recover_s: float = math.inf  # from its end to the first valid frame of a later image that is neither
 
-    def is_kept(self, recovers=True):
+    def is_kept(self):
         """Whether the bars hold."""
         return (self.num_old == 0 and self.num_wrong <= MOST_WRONG * max(self.num_valid, 1)
-                and (not recovers or self.recover_s <= SLOWEST_RECOVERY_S))
+                and self.recover_s <= SLOWEST_RECOVERY_S)
 
 
 class Content:
@@ -119,6 +119,6 @@ def judge(frames, images, drive, begin_s, end_s):
         verdict.worst_error_m_s = max(verdict.worst_error_m_s, error)
         if (is_old or is_wrong) and begin_s <= time_s <= end_s:
             verdict.detect_s = time_s - begin_s
-        if not is_old and not is_wrong and time_s >= end_s:
+        if not is_old and not is_wrong and shown[1] >= end_s:
             verdict.recover_s = min(verdict.recover_s, time_s - end_s)
     return verdict
