@@ -7,7 +7,8 @@
 ///   encodes into storage that it took at construction. Nothing is allocated afterwards.
 /// Order:
 ///   Messages are handled in the order of their arrival. A message for which the kernel had no room
-///   shows as a gap in seq. A reader that wants only the newest message skips older ones.
+///   shows as a gap in seq. A reader that wants only the newest message skips older ones, and one
+///   that is behind may leave out messages that newer ones have overtaken.
 /// Errors:
 ///   Constructors throw BusError when the network cannot be joined. Later failures are counted in
 ///   Counters, and an exception that a handler throws is logged and counted as a rejection.

@@ -254,6 +254,22 @@ TEST_F(BusTest, SaysWhetherAMessageWasOvertakenAndCountsItAsSkippedInsteadOfLate
   EXPECT_EQ(0, counters_.num_late);
 }
 
+TEST_F(BusTest, CountsNoWaitFromBeforeTheProcessWasReady) {
+  bool by_arrival = false;
+  bool since_ready = true;
+  RawSubscriber in(bus_, kCamera, Input::kPeriodic, [&](RawSubscriber::Bytes) {
+    by_arrival = by_arrival || in.is_overtaken(30'000);
+    since_ready = in.is_overtaken(30'000, monotonic_us() - 20'000);
+    return nullptr;
+  });
+  bus_.publish(kCamera, Bytes{1});
+  bus_.publish(kCamera, Bytes{2});
+  usleep(60'000);
+  bus_.handle(0);
+  EXPECT_TRUE(by_arrival);
+  EXPECT_FALSE(since_ready);
+}
+
 TEST_F(BusTest, GivesTheNewestMessageAloneWhereItsReaderAsksForIt) {
   std::vector<std::uint8_t> seen;
   RawSubscriber in(bus_, kCamera, Input::kPeriodic,

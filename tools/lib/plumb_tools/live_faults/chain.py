@@ -116,19 +116,17 @@ class Chain:
         self.players.append(player)
         return player
 
-    def counters(self):
-        """What the processes counted, e.g. 'vo skipped 27, late 1; ground unpaired 2'."""
-        said = []
+    def counts(self):
+        """What the processes counted: {process: {counter: number}}, without zeros."""
+        counts = {}
         for name in NAMES:
-            most = {word: 0 for word in COUNTERS.values()}
+            most = dict.fromkeys(COUNTERS.values(), 0)
             for _, data in self.health(name):  # a process that was restarted counts anew
                 health = self.types.process_health_t.decode(data)
                 for field, word in COUNTERS.items():
                     most[word] = max(most[word], getattr(health, field))
-            words = [f'{word} {count}' for word, count in most.items() if count]
-            if words:
-                said.append(f'{name} {", ".join(words)}')
-        return '; '.join(said + self.not_ended) or '-'
+            counts[name] = {word: number for word, number in most.items() if number}
+        return counts
 
     def growth_mb(self, since_s):
         """The largest growth of a process's memory over its last report before that time, in MB."""

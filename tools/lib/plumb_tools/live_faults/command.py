@@ -19,6 +19,7 @@ from plumb_tools.markup import markdown_table
 
 HEAD = ['kind', 'fault', 'what happens', 'valid frames', 'older than 250 ms while valid', 'oldest',
         'wrong while valid', 'worst error', 'time to detect', 'time to recover', 'counted']
+MOST_GROWTH_MB = 2.0
 INSIDE = 'PLUMB_LIVE_FAULTS_INSIDE'
 INPUTS = 'CAMERA|CAMERA_CALIBRATION|DETECTIONS'
 RESULTS = ('VO_MOTION', 'GROUND_PLANE', 'EGO_MOTION', 'OBJECTS')
@@ -68,14 +69,24 @@ def run_case(case, options, types, dbc, drive, log):
     frames = sorted((frame for trace in chain.traces if trace.exists()
                      for frame in dbc.read(trace, 'PLB_EgoMotion')), key=lambda frame: frame[0])
     end_s = run.end_s
-    if case.awaits_calibration:
-        sent = [arrival_s for arrival_s, _ in chain.listener.messages['CAMERA_CALIBRATION'] if arrival_s > end_s]
-        end_s = min(sent, default=math.inf)
+    if case.calibrates:  # it listens when it says so
+        end_s = first_after(first_after(end_s, chain.health(case.calibrates)),
+                            chain.listener.messages['CAMERA_CALIBRATION'])
     verdict = judge(frames, chain.listener.images, drive, run.begin_s, end_s)
+    counts = chain.counts()
+    said = [f'{name} ' + ', '.join(f'{word} {number}' for word, number in words.items())
+            for name, words in counts.items() if words] + chain.not_ended
     growth_mb = chain.growth_mb(run.begin_s)
-    counted = chain.counters() + (f'; memory grew by {growth_mb:.0f} MB' if growth_mb > 2.0 else '')
-    kept = verdict.is_kept() and not chain.not_ended
-    return row(case, verdict, counted), kept, chain.listener
+    if growth_mb > MOST_GROWTH_MB:
+        said.append(f'memory grew by {growth_mb:.0f} MB')
+    is_counted = all(word in counts[name] for name, word in case.counts)
+    kept = verdict.is_kept() and is_counted and not chain.not_ended
+    return row(case, verdict, '; '.join(said) or '-'), kept, chain.listener
+
+
+def first_after(time_s, messages):
+    """When the first of the messages after that time arrived."""
+    return min((arrival_s for arrival_s, _ in messages if arrival_s > time_s), default=math.inf)
 
 
 def row(case, verdict, counted):
