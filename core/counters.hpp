@@ -9,10 +9,12 @@ namespace plumb {
 struct Counters {
   std::int64_t num_received = 0;
   std::int64_t num_rejected = 0;  ///< messages that broke their contract
-  std::int64_t num_dropped = 0;   ///< messages missing by sequence number
-  std::int64_t num_late = 0;      ///< messages processed later than the channel's stale time
+  std::int64_t num_dropped = 0;   ///< messages missing by number, or let go from a full store
+  std::int64_t num_late = 0;      ///< messages older than the channel's stale time when handled
   std::int64_t num_published = 0;
   std::int64_t num_unsent = 0;      ///< messages that did not fit or that the socket refused
+  std::int64_t num_skipped = 0;     ///< messages left out because a newer one waited
+  std::int64_t num_unpaired = 0;    ///< results made without an input that did not come in time
   const char* last_rejection = "";  ///< reason for the newest rejection
 
   void reject(const char* why) {

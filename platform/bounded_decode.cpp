@@ -7,10 +7,11 @@ namespace {
 
 constexpr std::int32_t kMaxStages = 16;  // process_health_t.num_stages
 
-// Both lists begin with fingerprint, utime, seq and count.
-bool count_is_valid(std::span<const std::uint8_t> bytes, std::int32_t most) {
+/// Reads the count of a list that begins after `bytes_before`.
+bool count_is_valid(std::span<const std::uint8_t> bytes, std::int64_t bytes_before,
+                    std::int32_t most) {
   WireCursor cursor(bytes);
-  cursor.skip(24);
+  cursor.skip(bytes_before);
   const std::int32_t count = cursor.i32();
   return cursor.ok() && count >= 0 && count <= most;
 }
@@ -18,19 +19,22 @@ bool count_is_valid(std::span<const std::uint8_t> bytes, std::int32_t most) {
 }  // namespace
 
 bool lengths_are_valid(std::span<const std::uint8_t> bytes, const detections_t* /*type*/) {
-  return count_is_valid(bytes, detections_t::MAX_DETECTIONS);
+  // Fingerprint, utime, seq.
+  return count_is_valid(bytes, 3 * 8, detections_t::MAX_DETECTIONS);
 }
 
 bool lengths_are_valid(std::span<const std::uint8_t> bytes, const ground_plane_t* /*type*/) {
   WireCursor cursor(bytes);
-  // Fingerprint, utime, seq, status, reason, normal, height, pitch, roll, covariance.
-  cursor.skip(3 * 8 + 2 * 1 + 3 * 8 + 3 * 8 + 9 * 8);
+  // Fingerprint, utime, seq, session, capture time, status, reason, normal, height, pitch, roll,
+  // covariance.
+  cursor.skip(5 * 8 + 2 * 1 + 3 * 8 + 3 * 8 + 9 * 8);
   const auto count = cursor.take(1);
   return cursor.ok() && count[0] <= ground_plane_t::MAX_CUES;
 }
 
 bool lengths_are_valid(std::span<const std::uint8_t> bytes, const objects_t* /*type*/) {
-  return count_is_valid(bytes, objects_t::MAX_OBJECTS);
+  // Fingerprint, utime, seq, capture time.
+  return count_is_valid(bytes, 4 * 8, objects_t::MAX_OBJECTS);
 }
 
 bool lengths_are_valid(std::span<const std::uint8_t> bytes, const process_health_t* /*type*/) {
@@ -40,7 +44,7 @@ bool lengths_are_valid(std::span<const std::uint8_t> bytes, const process_health
   (void)cursor.text();
   cursor.skip(1);
   (void)cursor.text();
-  cursor.skip(6 * 8 + 4 + 2 * 8);
+  cursor.skip(8 * 8 + 4 + 2 * 8);
   const std::int32_t count = cursor.i32();
   if (!cursor.ok() || count < 0 || count > kMaxStages) return false;
   for (std::int32_t i = 0; i < count; ++i) {

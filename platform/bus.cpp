@@ -50,8 +50,7 @@ int Bus::fileno() {
   }
 }
 
-bool Bus::handle(int timeout_ms, std::int64_t busy_since_us) {
-  busy_since_us_ = busy_since_us;
+bool Bus::handle(int timeout_ms) {
   const MessageQueues::View message = wait_for_message(timeout_ms);
   tell_refusals();
   if (message.subscription == MessageQueues::kNone) return false;
@@ -140,6 +139,22 @@ std::int64_t RawSubscriber::num_skipped() const {
   return bus_.transport_->num_skipped(subscription_);
 }
 
+bool RawSubscriber::is_overtaken(std::int64_t limit_us, std::int64_t ready_us) const {
+  return last_us_ - std::max(arrival_us_, ready_us) > limit_us &&
+         bus_.transport_->num_waiting(subscription_) > 0;
+}
+
+void RawSubscriber::skip() {
+  is_skipped_ = true;
+  ++bus_.counters().num_skipped;
+}
+
+bool RawSubscriber::is_late(std::int64_t now_us) const {
+  if (channel_.stale_us <= 0 || is_skipped_) return false;
+  const std::int64_t since_us = capture_us_ > 0 ? std::min(capture_us_, arrival_us_) : arrival_us_;
+  return now_us - since_us > channel_.stale_us;
+}
+
 void RawSubscriber::dispatch(const MessageQueues::View& message) {
   try {
     take(message);
@@ -152,16 +167,15 @@ void RawSubscriber::dispatch(const MessageQueues::View& message) {
 void RawSubscriber::take(const MessageQueues::View& message) {
   last_us_ = monotonic_us();
   arrival_us_ = message.arrival_us;
+  capture_us_ = 0;
+  is_skipped_ = false;
   Counters& counters = bus_.counters();
   ++counters.num_received;
   if (const char* refused = handler_(message.bytes)) {
     counters.reject(refused);
     log_limited("a message on %s was refused: %s", channel_.name, refused);
   }
-  const std::int64_t done_us = monotonic_us();
-  const std::int64_t waited_us =
-      std::min(done_us - message.arrival_us, done_us - bus_.busy_since_us_);
-  if (channel_.stale_us > 0 && waited_us > channel_.stale_us) ++counters.num_late;
+  if (is_late(monotonic_us())) ++counters.num_late;
 }
 
 }  // namespace plumb

@@ -7,7 +7,8 @@
 ///   encodes into storage that it took at construction. Nothing is allocated afterwards.
 /// Order:
 ///   Messages are handled in the order of their arrival. A message for which the kernel had no room
-///   shows as a gap in seq. A reader that wants only the newest message skips older ones.
+///   shows as a gap in seq. A reader that wants only the newest message skips older ones, and one
+///   that is behind may leave out messages that newer ones have overtaken.
 /// Errors:
 ///   Constructors throw BusError when the network cannot be joined. Later failures are counted in
 ///   Counters, and an exception that a handler throws is logged and counted as a rejection.
@@ -57,9 +58,8 @@ class Bus {
   /// Throws BusError when the network cannot be joined.
   [[nodiscard]] int fileno();
   /// Dispatches at most one message and waits up to `timeout_ms` for it. Returns true when there
-  /// was one. `busy_since_us` (EventLoop::busy_since_us) is the earliest time at which the message
-  /// can have arrived; it bounds the arrival time, which a step of the calendar clock may spoil.
-  bool handle(int timeout_ms = 0, std::int64_t busy_since_us = 0);
+  /// was one.
+  bool handle(int timeout_ms = 0);
   /// Publishes bytes. Returns false when the transport does not take them.
   bool publish(const Channel& channel, std::span<const std::uint8_t> bytes);
 
@@ -81,7 +81,6 @@ class Bus {
   std::string url_;
   Counters* counters_;
   std::unique_ptr<MessageTransport> transport_;
-  std::int64_t busy_since_us_ = 0;
   std::int64_t num_refused_ = 0;
   UdpmOutcomeCounts outcomes_;
   std::int64_t num_overflowed_ = 0;
@@ -128,10 +127,23 @@ class RawSubscriber {
   /// Messages that a newer one replaced before they were handled (Delivery::kLatest).
   [[nodiscard]] std::int64_t num_skipped() const;
 
+  // For the handler, about the message that it handles:
+
+  /// Has it waited for more than `limit_us` while a newer one of its channel waits? The wait counts
+  /// from its arrival on this machine, and not before the time `ready_us`. The slots tell what
+  /// waits; they are filled from the socket before each message.
+  [[nodiscard]] bool is_overtaken(std::int64_t limit_us, std::int64_t ready_us = 0) const;
+  /// It is left out because a newer one waits: counts it as skipped and never as late.
+  void skip();
+  /// [us] What it shows was captured at this monotonic time, 0 when that is not known. A message is
+  /// late by its capture, or by its arrival when the capture is not known.
+  void set_capture_us(std::int64_t capture_us) { capture_us_ = capture_us; }
+
  private:
   friend class Bus;
   void dispatch(const MessageQueues::View& message);
   void take(const MessageQueues::View& message);
+  [[nodiscard]] bool is_late(std::int64_t now_us) const;
 
   Bus& bus_;
   const Channel& channel_;
@@ -140,6 +152,8 @@ class RawSubscriber {
   int subscription_ = MessageQueues::kNone;
   std::int64_t last_us_ = 0;
   std::int64_t arrival_us_ = 0;
+  std::int64_t capture_us_ = 0;
+  bool is_skipped_ = false;
 };
 
 /// Decodes every message of one channel into a member and passes it to a handler. A message that
@@ -154,6 +168,8 @@ class Subscriber {
         raw_(bus, channel, input,
              [this](RawSubscriber::Bytes bytes) -> const char* {
                if (!decode_bounded(bytes, &message_)) return "does not decode";
+               if constexpr (requires { message_.capture_mono_us; })
+                 raw_.set_capture_us(message_.capture_mono_us);
                return handler_(message_);
              },
              {max_encoded_bytes(&message_), RawSubscriber::kQueueMessages}) {}

@@ -98,17 +98,9 @@ void EventLoop::run() {
   }
 }
 
-int EventLoop::wait(int timeout_ms) {
-  const int ready = ::poll(polls_.data(), polls_.size(), 0);
-  if (ready != 0) return ready;
-  const int later = ::poll(polls_.data(), polls_.size(), timeout_ms);
-  busy_since_us_ = monotonic_us();
-  return later;
-}
-
 bool EventLoop::step(int timeout_ms) {
   if (stopped_) return false;
-  if (wait(timeout_ms) < 0) {
+  if (::poll(polls_.data(), polls_.size(), timeout_ms) < 0) {
     if (errno != EINTR) fail("poll");
     return true;
   }

@@ -56,9 +56,6 @@ class EventLoop {
   /// the loop is to end.
   bool step(int timeout_ms);
   void stop() { stopped_ = true; }
-  /// [us] Monotonic time since which the loop has not been idle. No source that is served now was
-  /// ready before that time.
-  [[nodiscard]] std::int64_t busy_since_us() const { return busy_since_us_; }
   /// SIGINT or SIGTERM, or 0 when no stop signal arrived.
   [[nodiscard]] int stop_signal() const { return stop_signal_; }
 
@@ -67,7 +64,6 @@ class EventLoop {
     bool is_timer;
     Callback callback;
   };
-  int wait(int timeout_ms);
   std::size_t add(int fd, bool is_timer, Callback callback);
   void set_timer(TimerId timer, std::int64_t at_us, std::int64_t period_us);
 
@@ -75,7 +71,6 @@ class EventLoop {
   std::vector<Source> sources_;
   bool stopped_ = false;
   int stop_signal_ = 0;
-  std::int64_t busy_since_us_ = 0;
 };
 
 }  // namespace plumb

@@ -43,6 +43,8 @@ const process_health_t& Health::report(std::int64_t now_us, const Counters& coun
   message_.num_rejected = counters.num_rejected;
   message_.num_dropped = counters.num_dropped;
   message_.num_late = counters.num_late;
+  message_.num_skipped = counters.num_skipped;
+  message_.num_unpaired = counters.num_unpaired;
   message_.num_published = counters.num_published;
   message_.num_unsent = counters.num_unsent;
   message_.receive_buffer_bytes = bus.receive_buffer_bytes();
@@ -66,7 +68,6 @@ void Health::set_state(HealthState state, const char* reason) {
 void Health::judge(std::int64_t now_us, const Counters& counters, const Bus& bus) {
   const bool trouble = judge_counters(now_us, counters);
   if (condition_ != HealthState::kRunning) return set_state(condition_, condition_reason_.c_str());
-  if (trouble) return set_state(HealthState::kDegraded, trouble_.c_str());
   for (const RawSubscriber* input : bus.subscribers()) {
     if (input->input() != Input::kPeriodic) continue;
     std::array<char, kMaxText> reason{};
@@ -81,6 +82,7 @@ void Health::judge(std::int64_t now_us, const Counters& counters, const Bus& bus
     }
     return set_state(HealthState::kWaiting, reason.data());
   }
+  if (trouble) return set_state(HealthState::kDegraded, trouble_.c_str());
   set_state(HealthState::kRunning, "");
 }
 
@@ -94,6 +96,11 @@ bool Health::judge_counters(std::int64_t now_us, const Counters& now) {
   // Each later reason replaces the earlier ones, so the most serious comes last.
   if (now.num_late > before_.num_late)
     say("%lld messages processed late%s", now.num_late - before_.num_late, "");
+  if (now.num_skipped > before_.num_skipped)
+    say("%lld messages skipped for newer ones%s", now.num_skipped - before_.num_skipped, "");
+  if (now.num_unpaired > before_.num_unpaired)
+    say("%lld results without an input that came too late%s",
+        now.num_unpaired - before_.num_unpaired, "");
   if (now.num_rejected > before_.num_rejected)
     say("%lld messages rejected: %s", now.num_rejected - before_.num_rejected, now.last_rejection);
   if (now.num_unsent > before_.num_unsent)

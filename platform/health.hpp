@@ -31,9 +31,9 @@ class Health {
   void set_condition(HealthState state, const char* reason);
   void clear_condition() { condition_ = HealthState::kRunning; }
 
-  /// Builds the message. Without a condition the process is degraded for a second after it rejected
-  /// or lost a message, missed a deadline or failed to send, and it is waiting while no message
-  /// arrives on a periodic input.
+  /// Builds the message. Without a condition the process is waiting while no message arrives
+  /// on a periodic input, and else degraded for a second after it rejected, lost, skipped or missed
+  /// a message, was late or failed to send.
   const process_health_t& report(std::int64_t now_us, const Counters& counters, const Bus& bus,
                                  const StageTimer& timer);
   /// Builds the last message, whose state is stopping.

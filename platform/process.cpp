@@ -119,7 +119,7 @@ void Process::serve(const std::function<void()>& setup) {
   Publisher<process_health_t> publisher(*p.bus, p.info.health, Health::kMaxBytes, &health_counters);
   setup();
   if (!p.bus->subscribers().empty()) {
-    p.loop->watch(p.bus->fileno(), [&p] { p.bus->handle(0, p.loop->busy_since_us()); });
+    p.loop->watch(p.bus->fileno(), [&p] { p.bus->handle(); });
   }
   const auto report = [&p, &publisher] {
     publisher.publish(p.health.report(monotonic_us(), p.counters, *p.bus, p.timer));
@@ -134,9 +134,11 @@ void Process::serve(const std::function<void()>& setup) {
                                                                                  : "done"));
   const Counters& c = p.counters;
   log_line(
-      "stopped; received %lld, rejected %lld, lost %lld, late %lld, published %lld, unsent %lld",
+      "stopped; received %lld, rejected %lld, lost %lld, late %lld, skipped %lld, unpaired %lld, "
+      "published %lld, unsent %lld",
       static_cast<long long>(c.num_received), static_cast<long long>(c.num_rejected),
       static_cast<long long>(c.num_dropped), static_cast<long long>(c.num_late),
+      static_cast<long long>(c.num_skipped), static_cast<long long>(c.num_unpaired),
       static_cast<long long>(c.num_published), static_cast<long long>(c.num_unsent));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "modules/camera/camera_config.hpp"
+#include "modules/camera/image_queue_config.hpp"
 #include "modules/can/can_config.hpp"
 #include "modules/detections/detections_config.hpp"
 #include "modules/detector/detector_config.hpp"
@@ -21,6 +22,7 @@ namespace plumb {
 struct PlumbConfig {
   CameraConfig camera;
   IntegrityConfig integrity;
+  ImageQueueConfig images;
   VoConfig vo;
   DetectorConfig detect;
   DetectionsConfig detections;
@@ -36,6 +38,7 @@ struct PlumbConfig {
   static void visit(Config& c, Visit&& field) {
     CameraConfig::visit(c.camera, field);
     IntegrityConfig::visit(c.integrity, field);
+    ImageQueueConfig::visit(c.images, field);
     VoConfig::visit(c.vo, field);
     DetectorConfig::visit(c.detect, field);
     DetectionsConfig::visit(c.detections, field);

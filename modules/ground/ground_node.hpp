@@ -77,6 +77,11 @@ class GroundNode {
   [[nodiscard]] const GroundOutput* output() const { return output_; }
   /// Number of images and motions that never arrived.
   [[nodiscard]] std::int64_t num_lost() const { return losses_.num_lost() + num_motions_lost_; }
+  [[nodiscard]] std::int64_t num_motions_lost() const { return num_motions_lost_; }
+  /// Number of images and detections that a full store let go before their turn.
+  [[nodiscard]] std::int64_t num_overflowed() const {
+    return calibrated() ? images_->num_overflowed() + objects_->num_overflowed() : 0;
+  }
   /// Number of motions that were processed without an image.
   [[nodiscard]] std::int64_t num_unpaired() const { return num_unpaired_; }
 

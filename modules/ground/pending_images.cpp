@@ -16,6 +16,7 @@ bool PendingImages::put(const ImageFrame& frame) {
   if (size_ == kSlots) {
     first_ = (first_ + 1) % kSlots;
     --size_;
+    ++num_overflowed_;
   }
   const std::size_t slot = (first_ + size_) % kSlots;
   std::uint8_t* out = storage_.data() + slot * slot_bytes_;

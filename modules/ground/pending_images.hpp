@@ -1,7 +1,8 @@
 /// Copies of the newest images that wait for the VO motion of the same frame.
 ///
 /// Memory:
-///   kSlots images at construction (30 MB for KITTI). When all are taken, the oldest is dropped.
+///   kSlots images at construction (30 MB for KITTI). When all are taken, the oldest is dropped
+///   and counted.
 #pragma once
 
 #include <array>
@@ -26,6 +27,8 @@ class PendingImages {
   [[nodiscard]] const ImageFrame* find(std::int64_t seq, std::int64_t capture_us) const;
   /// Drops `frame`, which find() returned, and all images before it.
   void drop_through(const ImageFrame* frame);
+  /// Images that were dropped because all slots were taken.
+  [[nodiscard]] std::int64_t num_overflowed() const { return num_overflowed_; }
 
  private:
   std::size_t slot_bytes_;
@@ -33,6 +36,7 @@ class PendingImages {
   std::array<ImageFrame, kSlots> frames_{};  ///< oldest first, beginning at first_
   std::size_t first_ = 0;
   std::size_t size_ = 0;
+  std::int64_t num_overflowed_ = 0;
 };
 
 }  // namespace plumb

@@ -24,7 +24,7 @@ namespace plumb {
 
 struct ClockOffsetConfig {
   double window_s = 60.0;
-  int min_messages = 5;
+  int min_messages = 2;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {

@@ -48,12 +48,14 @@ const char* ObjectsNode::take_calibration(const camera_calibration_t& message) {
 }
 
 const char* ObjectsNode::take_plane(const ground_plane_t& message) {
+  if (has_plane_) ++num_lost_;
   plane_ = message;
   has_plane_ = true;
   return has_ego_ && ego_.seq == plane_.seq ? pair(plane_, ego_) : nullptr;
 }
 
 const char* ObjectsNode::take_ego(const ego_motion_t& message) {
+  if (has_ego_) ++num_lost_;
   ego_ = message;
   has_ego_ = true;
   return has_plane_ && ego_.seq == plane_.seq ? pair(plane_, ego_) : nullptr;
@@ -141,7 +143,11 @@ void ObjectsNode::process(const DetectionFrame& frame, const Ground* ground) {
   input.plane = input.plane_measured ? ground->plane : calibrated_plane();
 
   Ground now;  // without a plane its capture time is not known
-  if (ground != nullptr) now = *ground;
+  if (ground != nullptr) {
+    now = *ground;
+  } else {
+    ++num_unpaired_;
+  }
   now.seq = frame.seq;
   now.capture_us = frame.capture_us;
   if (any_processed_) {

@@ -51,6 +51,10 @@ class ObjectsNode {
 
   [[nodiscard]] bool calibrated() const { return tracker_.has_value(); }
   [[nodiscard]] bool waiting() const { return !waiting_.empty(); }
+  /// Planes without the motion of their image and motions without its plane.
+  [[nodiscard]] std::int64_t num_lost() const { return num_lost_; }
+  /// Detections that were processed without the plane of their image.
+  [[nodiscard]] std::int64_t num_unpaired() const { return num_unpaired_; }
 
  private:
   /// The plane and the motion of one image.
@@ -84,6 +88,8 @@ class ObjectsNode {
   ego_motion_t ego_{};      ///< waits for the plane of its image
   bool has_plane_ = false;
   bool has_ego_ = false;
+  std::int64_t num_lost_ = 0;
+  std::int64_t num_unpaired_ = 0;
   GroundOutput output_;
   DetectionFrame arrived_;
   FixedQueue<DetectionFrame, kMaxWaiting> waiting_;

@@ -28,7 +28,7 @@ class DetectorProcess {
   /// replaces this one.
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
     const char* refused = node_.take_image(bytes);
-    process_.counters().num_dropped = node_.num_skipped();
+    process_.counters().num_skipped = node_.num_skipped();
     if (refused == nullptr) process_.loop().arm_at(next_search_, next_us_);
     return refused;
   }

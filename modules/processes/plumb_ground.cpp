@@ -16,6 +16,7 @@ class GroundProcess {
  public:
   GroundProcess(plumb::Process& process, const plumb::PlumbConfig& config)
       : process_(process),
+        max_wait_us_(config.images.max_wait_us()),
         models_(plumb::load_models(config.ground.model_file)),
         node_(
             config.ground, config.detections, &process.timer(),
@@ -32,8 +33,8 @@ class GroundProcess {
         motion_(process.bus(), plumb::kVoMotion, plumb::Input::kPeriodic,
                 [this](const plumb::vo_motion_t& m) { return on_motion(m); }),
         detections_(process.bus(), plumb::kDetections, plumb::Input::kOccasional,
-                    [this](const plumb::detections_t& m) { return node_.take_detections(m); }),
-        image_timeout_(process.loop().timer([this] { node_.expire(); })) {
+                    [this](const plumb::detections_t& m) { return on_detections(m); }),
+        image_timeout_(process.loop().timer([this] { on_timeout(); })) {
     node_.set_session(process.session());
     if (const auto camera = plumb::stated_model(config.camera)) {
       node_.configure_camera(*camera);
@@ -46,23 +47,56 @@ class GroundProcess {
   const char* on_calibration(const plumb::camera_calibration_t& message) {
     const bool waited = !node_.calibrated();
     const char* refused = node_.take_calibration(message);
-    if (waited && node_.calibrated()) process_.health().clear_condition();
+    if (waited && node_.calibrated()) {
+      ready_us_ = plumb::monotonic_us();
+      process_.health().clear_condition();
+    }
     return refused;
   }
 
+  /// Images may be left out when this process is behind. Motions may not: the path is their sum.
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
-    const char* refused = node_.take_image(bytes);
-    process_.counters().num_dropped = node_.num_lost();
+    plumb::ImageFrame header;
+    if (const char* why = plumb::read_image(bytes, &header)) return why;
+    (void)arrivals_.take(header.seq);
+    const char* refused = nullptr;
+    if (camera_.is_overtaken(max_wait_us_, ready_us_)) {
+      camera_.skip();
+      skipped_seq_ = header.seq;
+      skipped_capture_us_ = header.capture_us;
+    } else {
+      refused = node_.take_image(bytes);
+    }
+    count();
     return refused;
   }
 
   const char* on_motion(const plumb::vo_motion_t& message) {
     const char* refused = node_.take_motion(message);
+    const bool is_skipped = skipped_seq_ == message.seq && skipped_capture_us_ == message.utime;
+    if (node_.waiting() && is_skipped) node_.expire();
     if (node_.waiting()) {
       process_.loop().arm_at(image_timeout_, plumb::monotonic_us() + plumb::kCamera.stale_us);
     }
-    process_.counters().num_dropped = node_.num_lost();
+    count();
     return refused;
+  }
+
+  const char* on_detections(const plumb::detections_t& message) {
+    const char* refused = node_.take_detections(message);
+    count();
+    return refused;
+  }
+
+  void count() {
+    plumb::Counters& counters = process_.counters();
+    counters.num_dropped = arrivals_.num_lost() + node_.num_motions_lost() + node_.num_overflowed();
+    counters.num_unpaired = node_.num_unpaired();
+  }
+
+  void on_timeout() {
+    node_.expire();
+    count();
   }
 
   void publish(const plumb::ground_plane_t& plane, const plumb::ego_motion_t& ego) {
@@ -86,8 +120,13 @@ class GroundProcess {
   }
 
   plumb::Process& process_;
+  std::int64_t max_wait_us_;
+  std::int64_t ready_us_ = 0;  ///< monotonic time at which the estimator had been created
   plumb::TrainedModels models_;
   plumb::GroundNode node_;
+  plumb::LossCounter arrivals_;    ///< of the images, skipped ones included
+  std::int64_t skipped_seq_ = -1;  ///< of the newest image that was left out
+  std::int64_t skipped_capture_us_ = 0;
   plumb::Publisher<plumb::ground_plane_t> plane_;
   plumb::Publisher<plumb::ego_motion_t> ego_;
   plumb::Publisher<plumb::mount_t> mount_;

@@ -20,13 +20,14 @@ class ObjectsProcess {
         objects_(process.bus(), plumb::kObjects, kMaxBytes),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
-        plane_(process.bus(), plumb::kGroundPlane, plumb::Input::kPeriodic,
-               [this](const plumb::ground_plane_t& m) { return timed_node().take_plane(m); }),
+        plane_(
+            process.bus(), plumb::kGroundPlane, plumb::Input::kPeriodic,
+            [this](const plumb::ground_plane_t& m) { return counted(timed_node().take_plane(m)); }),
         ego_(process.bus(), plumb::kEgoMotion, plumb::Input::kPeriodic,
-             [this](const plumb::ego_motion_t& m) { return timed_node().take_ego(m); }),
+             [this](const plumb::ego_motion_t& m) { return counted(timed_node().take_ego(m)); }),
         detections_(process.bus(), plumb::kDetections, plumb::Input::kPeriodic,
                     [this](const plumb::detections_t& m) { return on_detections(m); }),
-        plane_timeout_(process.loop().timer([this] { node_.expire(); })) {
+        plane_timeout_(process.loop().timer([this] { on_timeout(); })) {
     process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
   }
 
@@ -39,10 +40,26 @@ class ObjectsProcess {
 
   const char* on_detections(const plumb::detections_t& message) {
     const char* refused = timed_node().take_detections(message);
+    count();
     if (node_.waiting()) {
       process_.loop().arm_at(plane_timeout_, plumb::monotonic_us() + plumb::kGroundPlane.stale_us);
     }
     return refused;
+  }
+
+  const char* counted(const char* refused) {
+    count();
+    return refused;
+  }
+
+  void on_timeout() {
+    node_.expire();
+    count();
+  }
+
+  void count() {
+    process_.counters().num_dropped = node_.num_lost();
+    process_.counters().num_unpaired = node_.num_unpaired();
   }
 
   /// Any of three messages may complete an image, so each one starts the stage timer.

@@ -1,10 +1,12 @@
 /// CAMERA, CAMERA_CALIBRATION -> visual odometry -> VO_MOTION
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <optional>
 
 #include "modules/camera/front_end.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/vo/vo_node.hpp"
+#include "platform/clock.hpp"
 #include "platform/process.hpp"
 
 namespace {
@@ -13,6 +15,7 @@ class VoProcess {
  public:
   VoProcess(plumb::Process& process, const plumb::PlumbConfig& config, std::uint64_t seed)
       : process_(process),
+        max_wait_us_(config.images.max_wait_us()),
         node_(config.vo, seed, &process.timer(), config.integrity),
         motion_(process.bus(), plumb::kVoMotion),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
@@ -30,6 +33,7 @@ class VoProcess {
  private:
   const char* on_calibration(const plumb::camera_calibration_t& message) {
     const char* refused = node_.take_calibration(message);
+    if (ready_us_ == 0 && node_.calibrated()) ready_us_ = plumb::monotonic_us();
     if (refused != nullptr && node_.calibrated()) {
       process_.health().set_condition(plumb::HealthState::kDegraded, refused);
     } else if (node_.calibrated()) {
@@ -39,14 +43,25 @@ class VoProcess {
   }
 
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
+    if (camera_.is_overtaken(max_wait_us_, ready_us_)) {
+      camera_.skip();
+      return nullptr;
+    }
     const char* refused = node_.take_image(bytes, camera_.arrival_us());
-    if (node_.motion() != nullptr) motion_.publish(*node_.motion());
+    if (node_.motion() != nullptr) {
+      camera_.set_capture_us(node_.motion()->capture_mono_us);
+      motion_.publish(*node_.motion());
+    }
+    // A skipped image leaves a gap in the numbers, too.
+    process_.counters().num_dropped =
+        std::max<std::int64_t>(0, node_.num_lost() - camera_.num_skipped());
     if (refused == nullptr) process_.timer().end();
-    process_.counters().num_dropped = node_.num_lost();
     return refused;
   }
 
   plumb::Process& process_;
+  std::int64_t max_wait_us_;
+  std::int64_t ready_us_ = 0;  ///< monotonic time at which the estimator had been created
   plumb::VoNode node_;
   plumb::Publisher<plumb::vo_motion_t> motion_;
   plumb::Subscriber<plumb::camera_calibration_t> calibration_;

@@ -17,6 +17,9 @@ class MemoryTransport : public MessageTransport {
   [[nodiscard]] std::int64_t num_skipped(int subscription) const override {
     return queues_.num_skipped(subscription);
   }
+  [[nodiscard]] std::size_t num_waiting(int subscription) const override {
+    return queues_.num_waiting(subscription);
+  }
   /// False when the reader's slots are taken or the message is too large for them. A message that
   /// nobody reads counts as taken, as on a network.
   bool publish(std::string_view channel, std::span<const std::uint8_t> payload) override {

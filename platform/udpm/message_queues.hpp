@@ -52,11 +52,15 @@ class MessageQueues {
   [[nodiscard]] bool is_unsubscribed(int subscription) const {
     return at(subscription).channel.empty();
   }
-  /// @pre `subscription` is subscribed, for the four below
+  /// @pre `subscription` is subscribed, for the five below
   [[nodiscard]] std::size_t max_bytes(int subscription) const { return at(subscription).max_bytes; }
   /// Messages that were replaced by newer ones before they were read.
   [[nodiscard]] std::int64_t num_skipped(int subscription) const {
     return at(subscription).num_skipped;
+  }
+  /// Messages of a channel that wait, without the one being handled.
+  [[nodiscard]] std::size_t num_waiting(int subscription) const {
+    return at(subscription).size - (subscription == popped_ ? 1 : 0);
   }
   /// Copies a message into a slot. @pre not is_full(), bytes.size() <= max_bytes(subscription)
   void push(int subscription, std::span<const std::uint8_t> bytes, std::int64_t arrival_us);
@@ -99,9 +103,6 @@ class MessageQueues {
     return queues_[static_cast<std::size_t>(subscription)];
   }
   Slot& next_slot(int subscription, std::int64_t arrival_us);
-  [[nodiscard]] std::size_t num_waiting(int subscription) const {
-    return at(subscription).size - (subscription == popped_ ? 1 : 0);
-  }
 
   std::vector<Queue> queues_;
   std::uint64_t num_pushed_ = 0;

@@ -21,6 +21,7 @@ class MessageTransport {
   virtual int subscribe(const Subscription& wanted) = 0;
   virtual void unsubscribe(int subscription) = 0;
   [[nodiscard]] virtual std::int64_t num_skipped(int subscription) const = 0;
+  [[nodiscard]] virtual std::size_t num_waiting(int subscription) const = 0;
 
   /// False when the message was not taken.
   virtual bool publish(std::string_view channel, std::span<const std::uint8_t> payload) = 0;

@@ -21,6 +21,9 @@ class UdpmEndpoint : public MessageTransport {
   [[nodiscard]] std::int64_t num_skipped(int subscription) const override {
     return receiver_ ? receiver_->inbox().num_skipped(subscription) : 0;
   }
+  [[nodiscard]] std::size_t num_waiting(int subscription) const override {
+    return receiver_ ? receiver_->inbox().num_waiting(subscription) : 0;
+  }
   bool publish(std::string_view channel, std::span<const std::uint8_t> payload) override {
     return sender_.publish(channel, payload);
   }

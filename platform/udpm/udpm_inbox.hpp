@@ -45,6 +45,9 @@ class UdpmInbox {
   [[nodiscard]] std::int64_t num_skipped(int subscription) const {
     return queues_.num_skipped(subscription);
   }
+  [[nodiscard]] std::size_t num_waiting(int subscription) const {
+    return queues_.num_waiting(subscription);
+  }
 
  private:
   UdpmOutcome take_short(const UdpmPacket& packet, std::int64_t arrival_us);

@@ -38,7 +38,8 @@ UdpmReceiver::UdpmReceiver(const UdpmUrl& url, std::size_t num_in_reassembly)
       ready_(socket_.get()),
       inbox_(num_in_reassembly),
       sources_(url.sources),
-      packet_(kPacketBytes) {
+      packet_(kPacketBytes),
+      arrival_(monotonic_us()) {
   join(url);
 }
 
@@ -101,8 +102,10 @@ bool UdpmReceiver::receive_one() {
   message.msg_iovlen = 1;
   message.msg_control = control.data();
   message.msg_controllen = control.size();
+  const std::int64_t asked_us = monotonic_us();
   const ssize_t size = ::recvmsg(socket_.get(), &message, 0);
   if (size < 0) {
+    if (errno == EAGAIN) arrival_.note_empty(asked_us);
     if (errno != EAGAIN && errno != EINTR) ++num_errors_;
     return false;
   }
@@ -119,7 +122,7 @@ bool UdpmReceiver::receive_one() {
 
 /// Reads the kernel's notes about a packet. Returns the time of arrival on the monotonic clock.
 std::int64_t UdpmReceiver::read_control(msghdr* message, std::int64_t now_us) {
-  std::int64_t waited_us = 0;
+  std::int64_t arrival_us = now_us;
   for (cmsghdr* note = CMSG_FIRSTHDR(message); note != nullptr; note = CMSG_NXTHDR(message, note)) {
     if (note->cmsg_level != SOL_SOCKET) continue;
     if (note->cmsg_type == SO_RXQ_OVFL) {
@@ -130,13 +133,12 @@ std::int64_t UdpmReceiver::read_control(msghdr* message, std::int64_t now_us) {
     } else if (note->cmsg_type == SO_TIMESTAMPNS) {
       timespec stamp{};
       std::memcpy(&stamp, CMSG_DATA(note), sizeof stamp);
-      const std::int64_t arrival_us =
+      const std::int64_t stamp_us =
           static_cast<std::int64_t>(stamp.tv_sec) * 1'000'000 + stamp.tv_nsec / 1'000;
-      // The stamp is calendar time, which may step; nothing arrives later than now.
-      waited_us = std::max<std::int64_t>(realtime_us() - arrival_us, 0);
+      arrival_us = arrival_.of(stamp_us, now_us, realtime_us());
     }
   }
-  return now_us - waited_us;
+  return arrival_us;
 }
 
 bool UdpmReceiver::is_heard(std::uint32_t address, std::int64_t now_us) {

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "platform/udpm/arrival_time.hpp"
 #include "platform/udpm/file_descriptor.hpp"
 #include "platform/udpm/local_addresses.hpp"
 #include "platform/udpm/ready_signal.hpp"
@@ -71,6 +72,7 @@ class UdpmReceiver {
   std::vector<std::uint32_t> sources_;
   LocalAddresses local_;
   std::vector<std::uint8_t> packet_;
+  ArrivalTime arrival_;
   int receive_buffer_bytes_ = 0;
   std::uint32_t kernel_drops_ = 0;
   std::int64_t num_overflowed_ = 0;

@@ -103,6 +103,20 @@ TEST_F(ObjectsQueueTest, RefusesDetectionsThatComeTooLateOrInDisorder) {
   EXPECT_EQ(image(3).size(), 1U) << "what was taken before is not lost";
 }
 
+TEST_F(ObjectsQueueTest, CountsDetectionsThatGiveWayBeforeTheirTurn) {
+  start(1);
+  image(1);
+  constexpr auto kRoom = static_cast<std::int64_t>(ObjectsQueue::kMaxWaiting);
+  for (std::int64_t seq = 1; seq <= kRoom; ++seq) ASSERT_EQ(detections(seq, kBelow_rad), nullptr);
+  EXPECT_EQ(queue_->num_overflowed(), 0);
+  ASSERT_EQ(detections(kRoom + 1, kBelow_rad), nullptr);
+  EXPECT_EQ(queue_->num_overflowed(), 1);
+  EXPECT_TRUE(image(2).empty()) << "those of image 1 are gone";
+  EXPECT_EQ(image(3).size(), 1U);
+  ASSERT_EQ(detections(kRoom + 2, kBelow_rad), nullptr);
+  EXPECT_EQ(queue_->num_overflowed(), 1) << "the turn of image 2 has passed";
+}
+
 TEST_F(ObjectsQueueTest, IsSilentAcrossABreakInTheMotion) {
   start(1);
   image(1);

@@ -313,8 +313,24 @@ TEST_F(ObjectsNodeTest, DetectionsWhosePlaneWasLostGoOnWithoutItInOrder) {
     EXPECT_EQ(published_[i].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
   EXPECT_NE(published_[2].objects[0].reason, object_t::REASON_CALIBRATED_PLANE);
   EXPECT_TRUE(node_.waiting());
+  EXPECT_EQ(node_.num_unpaired(), 2);
   node_.expire();
   EXPECT_EQ(published_.back().seq, 4);
+  EXPECT_EQ(node_.num_unpaired(), 3);
+}
+
+TEST_F(ObjectsNodeTest, CountsAPlaneWhoseMotionNeverCame) {
+  calibrate();
+  ASSERT_EQ(take_ground(1), nullptr);
+  EXPECT_EQ(node_.num_lost(), 0);
+  GroundOutput alone;
+  alone.seq = 2;
+  alone.capture_us = 200'000;
+  ground_plane_t plane{};
+  to_wire(alone, &plane);
+  ASSERT_EQ(node_.take_plane(plane), nullptr);
+  ASSERT_EQ(take_ground(3), nullptr);
+  EXPECT_EQ(node_.num_lost(), 1);
 }
 
 TEST_F(ObjectsNodeTest, KeepsToTheCalibratedPlaneWhenAskedTo) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "platform/clock.hpp"
@@ -102,7 +103,7 @@ TEST(BoundedDecode, RefusesHostileCountsAndTextLengths) {
     detections_t detections;
     EXPECT_FALSE(decode_bounded(list, &detections)) << hostile;
     list = encoded(objects_t{});
-    put_i32(&list, 24, hostile);
+    put_i32(&list, 32, hostile);
     objects_t objects;
     EXPECT_FALSE(decode_bounded(list, &objects)) << hostile;
     Bytes text = encoded(sample_health());
@@ -211,11 +212,62 @@ TEST_F(BusTest, CountsAMessageThatWaitedTooLongAsLate) {
   bus_.handle(0);
   EXPECT_EQ(1, counters_.num_late);
   EXPECT_GE(in.last_us() - in.arrival_us(), 60'000);
+}
+
+TEST_F(BusTest, CountsAMessageAsLateByTheTimeOfItsCaptureWhereThatIsKnown) {
+  static constexpr Channel kImpatient{"IMPATIENT", "test", 10.0, 20'000};
+  Subscriber<vo_motion_t> in(bus_, kImpatient, Input::kPeriodic,
+                             [](const vo_motion_t&) { return nullptr; });
+  const auto handle = [&](std::int64_t capture_us) {
+    vo_motion_t motion{};
+    motion.capture_mono_us = capture_us;
+    bus_.publish(kImpatient, encoded(motion));
+    bus_.handle(0);
+    return counters_.num_late;
+  };
+  EXPECT_EQ(0, handle(0)) << "not known";
+  EXPECT_EQ(0, handle(monotonic_us()));
+  EXPECT_EQ(1, handle(monotonic_us() - 30'000)) << "it came at once, and shows what is 30 ms old";
+  EXPECT_EQ(1, handle(monotonic_us() + 3'600'000'000)) << "no capture lies in the future";
+  EXPECT_EQ(1, handle(std::numeric_limits<std::int64_t>::min()));
+  EXPECT_EQ(2, handle(1));
+}
+
+TEST_F(BusTest, SaysWhetherAMessageWasOvertakenAndCountsItAsSkippedInsteadOfLate) {
+  static constexpr Channel kImpatient{"IMPATIENT", "test", 10.0, 20'000};
+  std::vector<bool> overtaken;
+  RawSubscriber in(bus_, kImpatient, Input::kPeriodic, [&](RawSubscriber::Bytes) {
+    overtaken.push_back(in.is_overtaken(30'000));
+    if (overtaken.back()) in.skip();
+    return nullptr;
+  });
   bus_.publish(kImpatient, Bytes{1});
+  bus_.publish(kImpatient, Bytes{2});
+  bus_.handle(0);
   usleep(60'000);
-  bus_.handle(0, monotonic_us() - 1'000);
-  EXPECT_EQ(1, counters_.num_late)
-      << "this thread was idle a moment ago, so the time stamp of the arrival is wrong";
+  bus_.publish(kImpatient, Bytes{3});
+  while (bus_.handle(0)) {
+  }
+  EXPECT_EQ((std::vector<bool>{false, true, false}), overtaken)
+      << "the first one was on time, the second one was not, and none was newer than the third";
+  EXPECT_EQ(1, counters_.num_skipped);
+  EXPECT_EQ(0, counters_.num_late);
+}
+
+TEST_F(BusTest, CountsNoWaitFromBeforeTheProcessWasReady) {
+  bool by_arrival = false;
+  bool since_ready = true;
+  RawSubscriber in(bus_, kCamera, Input::kPeriodic, [&](RawSubscriber::Bytes) {
+    by_arrival = by_arrival || in.is_overtaken(30'000);
+    since_ready = in.is_overtaken(30'000, monotonic_us() - 20'000);
+    return nullptr;
+  });
+  bus_.publish(kCamera, Bytes{1});
+  bus_.publish(kCamera, Bytes{2});
+  usleep(60'000);
+  bus_.handle(0);
+  EXPECT_TRUE(by_arrival);
+  EXPECT_FALSE(since_ready);
 }
 
 TEST_F(BusTest, GivesTheNewestMessageAloneWhereItsReaderAsksForIt) {

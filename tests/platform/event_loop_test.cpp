@@ -61,24 +61,6 @@ TEST(EventLoop, FiresAnArmedTimerOnceAndADisarmedOneNever) {
   EXPECT_EQ(0, never);
 }
 
-TEST(EventLoop, KnowsSinceWhenItHasBeenBusy) {
-  EventLoop loop;
-  int ends[2];
-  ASSERT_EQ(0, ::pipe(ends));
-  loop.watch(ends[0], [] { usleep(5'000); });  // is never read and so is always ready
-  const std::int64_t start_us = monotonic_us();
-  const auto a = loop.timer([&] {
-    EXPECT_GE(loop.busy_since_us(), start_us + 20'000) << "the loop slept until this timer";
-    ASSERT_EQ(1, ::write(ends[1], "x", 1));
-  });
-  loop.arm_at(a, start_us + 20'000);
-  loop.every(100'000, [&] { loop.stop(); });
-  loop.run();
-  EXPECT_LT(loop.busy_since_us(), start_us + 60'000) << "the loop was busy from then on";
-  ::close(ends[0]);
-  ::close(ends[1]);
-}
-
 TEST(EventLoop, EndsOnAStopSignal) {
   for (const int number : {SIGINT, SIGTERM}) {
     EventLoop loop;

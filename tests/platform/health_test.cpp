@@ -56,6 +56,23 @@ TEST_F(HealthTest, IsDegradedForASecondAfterALossOrRejection) {
   EXPECT_EQ("3 messages lost", reason_) << "a loss is more serious than a rejection";
 }
 
+TEST_F(HealthTest, TellsOfSkippedMessagesAndOfResultsWithoutAnInput) {
+  counters_.num_late = 1;
+  counters_.num_skipped = 12;
+  EXPECT_EQ(HealthState::kDegraded, state_at(1'000'000));
+  EXPECT_EQ("12 messages skipped for newer ones", reason_);
+  counters_.num_unpaired = 2;
+  EXPECT_EQ(HealthState::kDegraded, state_at(3'000'000));
+  EXPECT_EQ("2 results without an input that came too late", reason_);
+}
+
+TEST_F(HealthTest, NamesAnAbsentInputBeforeLosses) {
+  RawSubscriber in(bus_, kInput, Input::kPeriodic, [](RawSubscriber::Bytes) { return nullptr; });
+  counters_.num_dropped = 3;
+  EXPECT_EQ(HealthState::kWaiting, state_at(monotonic_us()));
+  EXPECT_EQ("no INPUT yet", reason_);
+}
+
 TEST_F(HealthTest, PutsAConditionBeforeEverythingElse) {
   counters_.num_dropped = 1;
   health_.set_condition(HealthState::kWaiting, "no calibration yet");
@@ -66,7 +83,7 @@ TEST_F(HealthTest, PutsAConditionBeforeEverythingElse) {
 }
 
 TEST_F(HealthTest, ReportsCountersStagesAndMemory) {
-  counters_ = {1, 2, 3, 4, 5, 6, ""};
+  counters_ = {1, 2, 3, 4, 5, 6, 7, 8, ""};
   timer_.begin();
   timer_.mark("track");
   timer_.end();
@@ -79,6 +96,8 @@ TEST_F(HealthTest, ReportsCountersStagesAndMemory) {
   EXPECT_EQ(4, m.num_late);
   EXPECT_EQ(5, m.num_published);
   EXPECT_EQ(6, m.num_unsent);
+  EXPECT_EQ(7, m.num_skipped);
+  EXPECT_EQ(8, m.num_unpaired);
   ASSERT_EQ(2, m.num_stages);
   EXPECT_EQ("track", m.stages[0].name);
   EXPECT_EQ("total", m.stages[1].name);

@@ -206,6 +206,8 @@ TEST_F(GroundNodeTest, LetsTheOldestImageGiveWay) {
   motion(2);
   motion(last);
   EXPECT_EQ((Seqs{-1, 2, last}), results());
+  EXPECT_EQ(1, node_->num_overflowed());
+  EXPECT_EQ(1, node_->num_unpaired());
 }
 
 TEST_F(GroundNodeTest, CountsAMotionThatNeverCame) {

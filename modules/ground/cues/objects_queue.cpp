@@ -32,6 +32,7 @@ const char* ObjectsQueue::take(const DetectionFrame& frame) {
     return "detections came later than ground.detections_delay_images allows";
   if (frame.capture_us <= last_taken_us_) return "detections of an image that is not newer";
   last_taken_us_ = frame.capture_us;
+  if (waiting_[next_waiting_].capture_us > last_due_us_) ++num_overflowed_;
   waiting_[next_waiting_] = frame;
   next_waiting_ = (next_waiting_ + 1) % kMaxWaiting;
   return nullptr;

@@ -37,11 +37,13 @@ class ObjectsQueue {
                const CameraModel& camera, const LinearVariance& model);
 
   /// Returns null when taken, else why the frame was refused. When full, the oldest frame is
-  /// dropped.
+  /// dropped, and counted unless its turn has passed.
   [[nodiscard]] const char* take(const DetectionFrame& frame);
   /// Proceeds to the image of `vo`, taken at `camera_height`. Returns the pitch from its objects,
   /// or nothing; valid until the next call.
   std::span<const ObjectsMeasurement> update(const VoOutput& vo, const CameraHeight& camera_height);
+  /// Frames that were dropped before their turn.
+  [[nodiscard]] std::int64_t num_overflowed() const { return num_overflowed_; }
   /// Takes the plane that the ground estimator found in that image.
   void note(const PlaneOutput& plane);
 
@@ -73,6 +75,7 @@ class ObjectsQueue {
   std::size_t next_waiting_ = 0;
   std::int64_t last_taken_us_ = 0;
   std::int64_t last_due_us_ = 0;
+  std::int64_t num_overflowed_ = 0;
   ObjectsMeasurement measured_;
 };
 

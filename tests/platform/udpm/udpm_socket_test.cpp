@@ -139,6 +139,31 @@ TEST_F(UdpmSocket, KnowsWhenAMessageArrived) {
   EXPECT_LE(message.arrival_us, after_us + 5'000);
 }
 
+TEST(ArrivalTime, LiesBetweenTheEmptySocketAndNowWhateverTheCalendarDoes) {
+  constexpr std::int64_t kHour_us = 3'600'000'000;
+  ArrivalTime arrival(1'000);
+  EXPECT_EQ(1'500, arrival.of(70'500, 2'000, 71'000));
+  EXPECT_EQ(1'000, arrival.of(70'500, 2'000, 71'000 + kHour_us)) << "the calendar went forward";
+  EXPECT_EQ(2'000, arrival.of(70'500, 2'000, 71'000 - kHour_us)) << "the calendar went back";
+  arrival.note_empty(5'000);
+  EXPECT_EQ(3'005'000, arrival.of(72'000, 6'005'000, 3'072'000)) << "the process was stopped";
+  EXPECT_EQ(5'000, arrival.of(70'000, 6'000, 71'500)) << "nothing waited at 5'000";
+}
+
+TEST_F(UdpmSocket, TellsHowManyMessagesOfAChannelWait) {
+  UdpmReceiver receiver(parse_udpm_url(kTestUrl));
+  UdpmSender sender(parse_udpm_url(kTestUrl));
+  const int image = receiver.subscribe({"CAMERA", kImageBytes, 3});
+  const int motion = receiver.subscribe({"VO_MOTION", 100, 8});
+  for (std::uint32_t i = 0; i < 2; ++i)
+    ASSERT_TRUE(sender.publish("CAMERA", pattern(kImageBytes, i)));
+  ASSERT_EQ(image, receiver.take().subscription);
+  EXPECT_EQ(1U, receiver.inbox().num_waiting(image)) << "the one being handled does not count";
+  EXPECT_EQ(0U, receiver.inbox().num_waiting(motion));
+  ASSERT_EQ(image, receiver.take().subscription);
+  EXPECT_EQ(0U, receiver.inbox().num_waiting(image));
+}
+
 TEST_F(UdpmSocket, CountsWhatTheKernelDropped) {
   UdpmReceiver receiver(parse_udpm_url("udpm://239.255.76.67:7667?recv_buf_size=20000"));
   EXPECT_EQ(20'000, receiver.receive_buffer_bytes());
