@@ -101,9 +101,7 @@ void Chain::take_image(std::span<const std::uint8_t> bytes) {
 }
 
 const char* Chain::take_motion(const vo_motion_t& motion) {
-  motion_ = motion;
-  if (motion_.capture_mono_us == 0) motion_.capture_mono_us = motion_.utime;
-  const char* refused = ground_.take_motion(motion_);
+  const char* refused = ground_.take_motion(motion);
   ground_.expire();  // The image of a motion never comes later in a log.
   ground_timer_.end();
   return refused;

@@ -100,7 +100,6 @@ class Chain {
   CanSink* can_sink_;
   Sink sink_;
   ObjectsSink objects_sink_;
-  vo_motion_t motion_{};                   ///< with the log's clock as that of this machine
   const ground_plane_t* plane_ = nullptr;  ///< of the current image
   const ego_motion_t* ego_ = nullptr;
   const mount_t* mount_message_ = nullptr;  ///< null for most images
