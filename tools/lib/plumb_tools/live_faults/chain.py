@@ -131,7 +131,7 @@ class Chain:
     def growth_mb(self, since_s):
         """The largest growth of a process's memory over its last report before that time, in MB."""
         growth = 0.0
-        for name in NAMES:
+        for name in set(NAMES) - set(self.case.without):
             before, after = [], []
             for arrival_s, data in self.health(name):
                 report = self.types.process_health_t.decode(data)
