@@ -22,7 +22,7 @@
 
 #include "core/counters.hpp"
 #include "core/stage_probe.hpp"
-#include "modules/camera/calibration_keeper.hpp"
+#include "modules/camera/calibration_keeper_wire.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/detections/detections_wire.hpp"
 #include "modules/ground/cues/objects_queue.hpp"

@@ -44,6 +44,7 @@ void write_plane(const PlaneKalman* filter, const PaperFrame& frame, double came
   Eigen::Matrix2d tilt;
   tilt << P(0, 0), P(0, 2), P(2, 0), P(2, 2);
   const Eigen::Matrix2d J = angles_jacobian(plane->normal_cam);
+  plane->cov.setZero();
   plane->cov.topLeftCorner<2, 2>() = J * tilt * J.transpose();
   plane->cov(2, 2) = P(3, 3) / (camera_height_m * camera_height_m) + frame.height_var;
 }

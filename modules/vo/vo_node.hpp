@@ -17,9 +17,9 @@
 #include <span>
 
 #include "core/stage_probe.hpp"
-#include "modules/camera/calibration_keeper.hpp"
+#include "modules/camera/calibration_keeper_wire.hpp"
 #include "modules/camera/image_wire.hpp"
-#include "modules/vo/image_judge.hpp"
+#include "modules/vo/image_judge_wire.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/vo_wire.hpp"
 

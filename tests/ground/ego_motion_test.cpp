@@ -123,6 +123,7 @@ TEST(EgoMotion, StandingStillChangesNothing) {
     vo.seq = k;
     vo.prev_seq = k - 1;
     vo.capture_us = 100'000LL * k + 1'000'000;
+    vo.interval_s = kDtS;
     vo.status = VoStatus::kStandstill;
     ScaleEstimate scale{true, false, 0.26, 1e-4, 1.0};
     rig.ego.update(vo, scale, Eigen::Vector3d::UnitY(), &rig.out);

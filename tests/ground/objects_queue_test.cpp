@@ -48,6 +48,8 @@ class ObjectsQueueTest : public testing::Test {
     const auto normals = queue_->update(vo, kHeight);
     PlaneOutput plane;
     plane.status = GroundStatus::kOk;
+    plane.roll_rad = 0.0;
+    plane.cov.setZero();
     queue_->note(plane);
     return normals;
   }

@@ -24,7 +24,7 @@ class ClockOffsetTest : public testing::Test {
 
   double drift_ = 0.0;
   double source_ahead_s_ = 1.7e9;
-  ClockOffset clock_{ClockOffsetConfig{}};
+  ClockOffset clock_{ClockOffsetConfig{.min_messages = 5}};
 };
 
 TEST_F(ClockOffsetTest, IsUnknownBeforeFiveMessages) {

@@ -210,8 +210,11 @@ class ObjectsNodeTest : public testing::Test {
     output.plane.status = GroundStatus::kOk;
     output.plane.normal_cam = {0.0, 1.0, 0.0};
     output.plane.height_m = 1.65;
+    output.plane.pitch_rad = output.plane.roll_rad = 0.0;
+    output.plane.cov.setZero();
     output.plane.cov.diagonal() << 1e-6, 1e-6, 1e-6;
     output.ego.status = EgoStatus::kOk;
+    output.ego.log_scale = output.ego.log_scale_std = 0.0;
     output.ego.T_world_cam.t = {0.0, 0.0, static_cast<double>(seq)};
     ground_plane_t plane{};
     ego_motion_t ego{};

@@ -63,8 +63,10 @@ TEST(ReplayObjects, GivesTheSameBitsEveryTime) {
 TEST(ReplayObjects, ReachCanOncePerImage) {
   CanCounter can;
   (void)replay_objects(test::with_boxes(test::street_events()), &can);
-  EXPECT_EQ(can.num_objects, test::kLastBoxFrame + 1);
-  EXPECT_GE(can.num_lists, test::kLastBoxFrame + 1);
+  // The age of the first images is not known.
+  constexpr int kNumUnknown = 3;
+  EXPECT_EQ(can.num_objects, test::kLastBoxFrame + 1 - kNumUnknown);
+  EXPECT_GE(can.num_lists, test::kLastBoxFrame + 1 - kNumUnknown);
 }
 
 TEST(ReplayObjects, RefusesDetectionsThatDoNotDecode) {

@@ -1,4 +1,4 @@
-#include "modules/vo/image_judge.hpp"
+#include "modules/vo/image_judge_wire.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "modules/camera/calibration_keeper.hpp"
+#include "modules/camera/calibration_keeper_wire.hpp"
 
 #include <utility>
 
