@@ -121,7 +121,9 @@ bool CanGate::next(std::int64_t now_us) {
   has_current_ = true;
   pending_.drop_front();
   while (!pending_.empty() && !has_fresh_half(current_, now_us)) {
-    ++counters_.num_passed;
+    // A frame of unknown age, as the first ones are, is no loss.
+    const bool is_dated = current_.plane.capture_mono_us != 0 || current_.ego.capture_mono_us != 0;
+    if (is_dated) ++counters_.num_passed;
     current_ = pending_.front();
     pending_.drop_front();
   }

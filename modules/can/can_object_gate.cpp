@@ -34,7 +34,7 @@ void CanObjectGate::tick(std::int64_t now_us, CanSink& sink) {
     has_current_ = true;
     pending_.drop_front();
     while (!pending_.empty() && !is_fresh(current_, now_us)) {
-      ++num_overflowed_;
+      if (current_.capture_mono_us != 0) ++num_overflowed_;  // else its age is not known yet
       current_ = pending_.front();
       pending_.drop_front();
     }

@@ -63,7 +63,7 @@ TEST_F(ClockOffsetTest, LateMessagesNeverMakeContentYounger) {
 TEST_F(ClockOffsetTest, FollowsADriftOf100PartsPerMillion) {
   for (const double drift : {100e-6, -100e-6}) {
     drift_ = drift;
-    clock_ = ClockOffset(ClockOffsetConfig{});
+    clock_ = ClockOffset(ClockOffsetConfig{.min_messages = 5});
     for (int i = 0; i < 6000; ++i) {
       const double t = 10.0 + 0.1 * i;
       send(t, 0.002);
@@ -95,7 +95,7 @@ TEST_F(ClockOffsetTest, AClockThatJumpsBackMakesContentOlderNeverYounger) {
 
 TEST_F(ClockOffsetTest, ANewEpochBeginsAnew) {
   for (const ClockEpoch epoch : {ClockEpoch{42, 1}, ClockEpoch{43, 0}}) {
-    clock_ = ClockOffset(ClockOffsetConfig{});
+    clock_ = ClockOffset(ClockOffsetConfig{.min_messages = 5});
     source_ahead_s_ = 1.7e9;
     for (int i = 0; i < 50; ++i) send(10.0 + 0.1 * i, 0.002);
     source_ahead_s_ -= 2.0;
