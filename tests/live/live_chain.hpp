@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "platform/bus.hpp"
 #include "platform/clock.hpp"
 #include "tests/support/child_process.hpp"
-#include "tests/support/temp_folder.hpp"
 
 namespace plumb::test {
 
@@ -46,13 +44,10 @@ class LiveChain {
   /// `url` of a network that carries nothing else.
   LiveChain(const std::string& url, const std::string& trace_path)
       : url_(url), bus_(url, &counters_) {
-    // A busy machine holds processes up. Skipped images are the business of other tests.
-    std::ofstream(config_.path()) << "[images]\nmax_wait_s = 60\n";
-    const std::string config = config_.path();
-    start({"plumb-can", "--lcm-url", url, "--config", config, "--trace", trace_path});
-    start({"plumb-objects", "--lcm-url", url, "--config", config});
-    start({"plumb-ground", "--lcm-url", url, "--config", config});
-    start({"plumb-vo", "--lcm-url", url, "--config", config});
+    start({"plumb-can", "--lcm-url", url, "--trace", trace_path});
+    start({"plumb-objects", "--lcm-url", url});
+    start({"plumb-ground", "--lcm-url", url});
+    start({"plumb-vo", "--lcm-url", url});
   }
 
   LiveResult play(const std::string& log, const std::string& speed) {
@@ -116,7 +111,6 @@ class LiveChain {
   }
 
   std::string url_;
-  TempFile config_{".toml"};
   Counters counters_;
   Bus bus_;
   std::int64_t last_message_us_ = 0;
