@@ -130,6 +130,7 @@ TEST_F(UdpmSocket, KnowsWhenAMessageArrived) {
   UdpmReceiver receiver(parse_udpm_url(kTestUrl));
   UdpmSender sender(parse_udpm_url(kTestUrl));
   receiver.subscribe({"VO_MOTION", 100, 4});
+  ::usleep(100'000);  // the kernel begins to stamp packets a little after it was asked to
   const std::int64_t before_us = monotonic_us();
   ASSERT_TRUE(sender.publish("VO_MOTION", Bytes{1}));
   const std::int64_t after_us = monotonic_us();
