@@ -12,6 +12,8 @@
 
 #include <cstdint>
 
+#include "modules/integrity/one_sender.hpp"
+
 namespace plumb {
 
 class CanSourceGuard {
@@ -27,11 +29,8 @@ class CanSourceGuard {
 
  private:
   std::int64_t silent_us_;
-  bool has_session_ = false;
-  std::int64_t session_ = 0;
+  OneSender sender_{kMaxRefused + 1};
   std::int64_t heard_us_ = 0;
-  std::int64_t challenger_ = 0;
-  int num_challenges_ = 0;  ///< messages of the challenger since the last one of the session
   std::int64_t num_refused_ = 0;
 };
 

@@ -1,8 +1,8 @@
 /// Follows one of several senders on a channel, by the session in their messages.
 ///
-/// A message of another session than the one that is followed is refused, until `kNumInRow` of them
-/// have come without one of the followed session in between: then the sender was restarted, and the
-/// new session is followed. Two senders that publish at the same time never take turns.
+/// A message of another session than the one that is followed is refused, until `num_in_row` of
+/// them have come without one of the followed session in between: then the sender was restarted,
+/// and the new session is followed. Two senders that publish at the same time never take turns.
 #pragma once
 
 #include <cstdint>
@@ -11,35 +11,39 @@ namespace plumb {
 
 class OneSender {
  public:
-  static constexpr int kNumInRow = 3;
-
   enum class Verdict : std::uint8_t {
     kSame,    ///< of the session that is followed
     kNew,     ///< of a session that is followed from this message on
     kForeign  ///< of another sender: the message is to be refused
   };
 
+  explicit OneSender(int num_in_row = 3) : num_in_row_(num_in_row) {}
+
+  /// Follows whoever is heard next.
+  void forget() { is_started_ = false; }
+
   Verdict take(std::int64_t session) {
     if (!is_started_ || session == session_) {
       const bool is_first = !is_started_;
       is_started_ = true;
       session_ = session;
-      num_in_row_ = 0;
+      num_foreign_ = 0;
       return is_first ? Verdict::kNew : Verdict::kSame;
     }
-    num_in_row_ = session == candidate_ ? num_in_row_ + 1 : 1;
+    num_foreign_ = session == candidate_ ? num_foreign_ + 1 : 1;
     candidate_ = session;
-    if (num_in_row_ < kNumInRow) return Verdict::kForeign;
+    if (num_foreign_ < num_in_row_) return Verdict::kForeign;
     session_ = session;
-    num_in_row_ = 0;
+    num_foreign_ = 0;
     return Verdict::kNew;
   }
 
  private:
+  int num_in_row_;
   bool is_started_ = false;
   std::int64_t session_ = 0;
   std::int64_t candidate_ = 0;
-  int num_in_row_ = 0;  ///< of `candidate_`
+  int num_foreign_ = 0;  ///< messages of `candidate_` in a row
 };
 
 }  // namespace plumb

@@ -30,6 +30,15 @@ TEST(OneSender, FollowsANewOneWhenTheOldOneIsSilent) {
   EXPECT_EQ(sender.take(9), Verdict::kSame);
 }
 
+TEST(OneSender, FollowsWhoeverIsHeardNextAfterItForgot) {
+  OneSender sender(7);
+  EXPECT_EQ(sender.take(5), Verdict::kNew);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(sender.take(9), Verdict::kForeign) << i;
+  EXPECT_EQ(sender.take(5), Verdict::kSame);
+  sender.forget();
+  EXPECT_EQ(sender.take(9), Verdict::kNew);
+}
+
 TEST(SteadyNumbers, NeverGoBack) {
   SteadyNumbers numbers;
   EXPECT_EQ(numbers.take(80), 80);
