@@ -53,15 +53,24 @@ const char* GroundNode::take_image(std::span<const std::uint8_t> image_bytes) {
   return images_->put(frame) ? nullptr : "compressed image is larger than the image itself";
 }
 
+const char* GroundNode::skip_image(std::span<const std::uint8_t> image_bytes) {
+  ImageFrame frame;
+  if (const char* why = read_image(image_bytes, &frame)) return why;
+  (void)losses_.take(frame.seq);
+  skipped_seq_ = frame.seq;
+  skipped_capture_us_ = frame.capture_us;
+  return nullptr;
+}
+
 const char* GroundNode::take_motion(const vo_motion_t& message) {
   expire();
-  VoOutput& vo = vo_;
+  // A broken message must not change whom this node follows.
+  if (const char* why = from_wire(message, &vo_)) return why;
   if (const char* why = follow(message)) return why;
-  if (const char* why = from_wire(message, &vo)) return why;
   last_motion_seq_ = message.seq;
   if (!calibrated()) {
     GroundOutput output;
-    output.capture_us = vo.capture_us;
+    output.capture_us = vo_.capture_us;
     output.plane.reason = GroundReason::kNoCalibration;
     output.ego.reason = VoReason::kNoCalibration;
     publish(output);
@@ -71,6 +80,7 @@ const char* GroundNode::take_motion(const vo_motion_t& message) {
   const ImageFrame* frame = images_->find(message.seq, message.utime);
   if (frame == nullptr) {
     waiting_ = true;
+    if (skipped_seq_ == message.seq && skipped_capture_us_ == message.utime) expire();
     return nullptr;
   }
   const char* refused = process(frame);
@@ -112,10 +122,8 @@ void GroundNode::begin_anew(const vo_motion_t& message) {
 
 /// Gives the images of vo_ the numbers that the algorithm sees, which never go back.
 void GroundNode::renumber() {
-  const auto has_motion = [this](std::int64_t seq) {
-    return seq >= 0 && numbers_.is_present(numbers_.steady(seq));
-  };
-  vo_.prev_seq = has_motion(vo_.prev_seq) ? numbers_.steady(vo_.prev_seq) : -1;
+  const bool has_previous = vo_.prev_seq >= 0 && numbers_.is_present(numbers_.steady(vo_.prev_seq));
+  vo_.prev_seq = has_previous ? numbers_.steady(vo_.prev_seq) : -1;
   vo_.seq = numbers_.take(vo_.seq);
   for (WindowPose& pose : vo_.window) pose.seq = numbers_.steady(pose.seq);
   if (is_new_unit_) {

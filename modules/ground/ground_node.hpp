@@ -56,6 +56,8 @@ class GroundNode {
   void configure_camera(const CameraModel& camera);
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_image(std::span<const std::uint8_t> image_bytes);
+  /// Leaves an image out. Its motion does not wait for it.
+  [[nodiscard]] const char* skip_image(std::span<const std::uint8_t> image_bytes);
   [[nodiscard]] const char* take_motion(const vo_motion_t& message);
   /// Takes detections of any image that was not yet used (objects_queue.hpp).
   [[nodiscard]] const char* take_detections(const detections_t& message);
@@ -77,7 +79,6 @@ class GroundNode {
   [[nodiscard]] const GroundOutput* output() const { return output_; }
   /// Number of images and motions that never arrived.
   [[nodiscard]] std::int64_t num_lost() const { return losses_.num_lost() + num_motions_lost_; }
-  [[nodiscard]] std::int64_t num_motions_lost() const { return num_motions_lost_; }
   /// Number of images and detections that a full store let go before their turn.
   [[nodiscard]] std::int64_t num_overflowed() const {
     return calibrated() ? images_->num_overflowed() + objects_->num_overflowed() : 0;
@@ -111,6 +112,8 @@ class GroundNode {
   LossCounter losses_;
   VoOutput vo_;  ///< the motion that is processed or waits
   bool waiting_ = false;
+  std::int64_t skipped_seq_ = -1;  ///< of the newest image that was left out
+  std::int64_t skipped_capture_us_ = 0;
   OneSender sender_;
   SteadyNumbers numbers_;              ///< of the images, as the algorithm sees them
   std::int64_t last_motion_seq_ = -1;  ///< the source's number; -1: none in this time line

@@ -56,25 +56,15 @@ class GroundProcess {
 
   /// Images may be left out when this process is behind. Motions may not: the path is their sum.
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
-    plumb::ImageFrame header;
-    if (const char* why = plumb::read_image(bytes, &header)) return why;
-    (void)arrivals_.take(header.seq);
-    const char* refused = nullptr;
-    if (camera_.is_overtaken(max_wait_us_, ready_us_)) {
-      camera_.skip();
-      skipped_seq_ = header.seq;
-      skipped_capture_us_ = header.capture_us;
-    } else {
-      refused = node_.take_image(bytes);
-    }
+    const bool is_overtaken = camera_.is_overtaken(max_wait_us_, ready_us_);
+    if (is_overtaken) camera_.skip();
+    const char* refused = is_overtaken ? node_.skip_image(bytes) : node_.take_image(bytes);
     count();
     return refused;
   }
 
   const char* on_motion(const plumb::vo_motion_t& message) {
     const char* refused = node_.take_motion(message);
-    const bool is_skipped = skipped_seq_ == message.seq && skipped_capture_us_ == message.utime;
-    if (node_.waiting() && is_skipped) node_.expire();
     if (node_.waiting()) {
       process_.loop().arm_at(image_timeout_, plumb::monotonic_us() + plumb::kCamera.stale_us);
     }
@@ -90,7 +80,7 @@ class GroundProcess {
 
   void count() {
     plumb::Counters& counters = process_.counters();
-    counters.num_dropped = arrivals_.num_lost() + node_.num_motions_lost() + node_.num_overflowed();
+    counters.num_dropped = node_.num_lost() + node_.num_overflowed();
     counters.num_unpaired = node_.num_unpaired();
   }
 
@@ -124,9 +114,6 @@ class GroundProcess {
   std::int64_t ready_us_ = 0;  ///< monotonic time at which the estimator had been created
   plumb::TrainedModels models_;
   plumb::GroundNode node_;
-  plumb::LossCounter arrivals_;    ///< of the images, skipped ones included
-  std::int64_t skipped_seq_ = -1;  ///< of the newest image that was left out
-  std::int64_t skipped_capture_us_ = 0;
   plumb::Publisher<plumb::ground_plane_t> plane_;
   plumb::Publisher<plumb::ego_motion_t> ego_;
   plumb::Publisher<plumb::mount_t> mount_;

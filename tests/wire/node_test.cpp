@@ -242,6 +242,30 @@ TEST_F(GroundNodeTest, FollowsARestartedSenderAfterThreeMotions) {
   EXPECT_EQ(8, results_.back().seq);
 }
 
+TEST_F(GroundNodeTest, ABrokenMotionDoesNotChangeWhomItFollows) {
+  calibrate();
+  for (std::int64_t seq = 100; seq <= 102; ++seq) motion(seq);
+  for (std::int64_t seq = 5; seq <= 9; ++seq) {
+    vo_motion_t broken = sample_motion(seq, 77);
+    broken.status = 99;
+    EXPECT_STREQ("VO motion: unknown status", node_->take_motion(broken));
+  }
+  EXPECT_STREQ("VO motion comes from a second sender", node_->take_motion(sample_motion(10, 77)));
+  motion(103);
+}
+
+TEST_F(GroundNodeTest, DoesNotWaitForAnImageThatWasLeftOut) {
+  calibrate();
+  EXPECT_EQ(nullptr, node_->skip_image(image_bytes(1)));
+  motion(1);
+  EXPECT_FALSE(node_->waiting());
+  EXPECT_EQ((Seqs{-1}), results());
+  image(2);
+  motion(2);
+  EXPECT_EQ((Seqs{-1, 2}), results());
+  EXPECT_EQ(0, node_->num_lost()) << "it was left out, not lost";
+}
+
 TEST_F(GroundNodeTest, ASecondSenderChangesNothing) {
   calibrate();
   for (std::int64_t seq = 1; seq <= 9; ++seq) {
