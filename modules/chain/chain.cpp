@@ -48,6 +48,7 @@ Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, S
   if (const auto camera = stated_model(config.camera)) {
     vo_.configure_camera(*camera);
     ground_.configure_camera(*camera);
+    objects_.configure_camera(*camera);
   }
 }
 

@@ -34,17 +34,25 @@ ObjectsNode::ObjectsNode(const DetectionsConfig& detections, const ObjectsConfig
   message_.objects.reserve(kMaxObjects);
 }
 
+void ObjectsNode::configure_camera(const CameraModel& camera) {
+  calibration_.configure(camera);
+  build();
+}
+
 const char* ObjectsNode::take_calibration(const camera_calibration_t& message) {
-  CameraModel camera;
-  if (const char* why = from_wire(message, &camera)) return why;
+  const char* refused = calibration_.take(message);
+  build();
+  return refused;
+}
+
+/// Creates the tracker when another camera holds. Tracks of an earlier camera are dropped.
+void ObjectsNode::build() {
+  if (!calibration_.take_change()) return;
   if (calibrated()) {
-    return same_camera(camera, camera_)
-               ? nullptr
-               : "calibration differs from the first one; restart to use it";
+    reset();
+  } else {
+    tracker_.emplace(detections_, objects_, calibration_.camera());
   }
-  camera_ = camera;
-  tracker_.emplace(detections_, objects_, camera_);
-  return nullptr;
 }
 
 const char* ObjectsNode::take_plane(const ground_plane_t& message) {
@@ -108,7 +116,7 @@ void ObjectsNode::reset() {
   kept_.fill({});
   waiting_.clear();
   any_taken_ = any_processed_ = false;
-  tracker_.emplace(detections_, objects_, camera_);
+  tracker_.emplace(detections_, objects_, calibration_.camera());
 }
 
 void ObjectsNode::expire() {
@@ -130,7 +138,8 @@ const ObjectsNode::Ground* ObjectsNode::find(std::int64_t seq, std::int64_t capt
 RoadPlane ObjectsNode::calibrated_plane() const {
   RoadPlane plane;
   plane.pitch_rad = detections_.mean_pitch_rad;
-  plane.height_m = camera_.camera_height_m > 0.0 ? camera_.camera_height_m : config_height_m_;
+  const double stated_m = calibration_.camera().camera_height_m;
+  plane.height_m = stated_m > 0.0 ? stated_m : config_height_m_;
   plane.cov.diagonal() << detections_.pitch_std_rad * detections_.pitch_std_rad,
       kCalibratedRollStd * kCalibratedRollStd, kCalibratedHeightStd * kCalibratedHeightStd;
   return plane;

@@ -10,10 +10,11 @@
 /// Order:
 ///   Detections of an image that is not newer than the last one are refused.
 /// Initialisation:
-///   The first valid calibration creates the tracker. Detections before it are refused. A plane
-///   that is older than the one before means that the source restarted, and resets the tracker.
+///   The tracker is created when a calibration begins to hold (CalibrationKeeper). Detections
+///   before it are refused. A plane that is older than the one before means that the source
+///   restarted, and resets the tracker.
 /// Memory:
-///   All storage is allocated at construction, except the tracker, which the calibration creates.
+///   All storage is allocated at construction, except the tracker, which a calibration creates.
 /// Errors:
 ///   take_*() return null when the message is accepted, and else the reason as a string literal.
 #pragma once
@@ -24,6 +25,7 @@
 #include <optional>
 
 #include "core/fixed_queue.hpp"
+#include "modules/camera/calibration_keeper_wire.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/detections/detections_wire.hpp"
 #include "modules/ground/ground_wire.hpp"
@@ -42,6 +44,8 @@ class ObjectsNode {
   ObjectsNode(const DetectionsConfig& detections, const ObjectsConfig& objects,
               const GroundConfig& ground, Sink sink);
 
+  /// States the calibration, instead of the first message.
+  void configure_camera(const CameraModel& camera);
   [[nodiscard]] const char* take_calibration(const camera_calibration_t& message);
   [[nodiscard]] const char* take_plane(const ground_plane_t& message);
   [[nodiscard]] const char* take_ego(const ego_motion_t& message);
@@ -69,6 +73,7 @@ class ObjectsNode {
     Se3 T_world_cam;
   };
 
+  void build();
   const char* pair(const ground_plane_t& plane, const ego_motion_t& ego);
   [[nodiscard]] const Ground* find(std::int64_t seq, std::int64_t capture_us) const;
   [[nodiscard]] RoadPlane calibrated_plane() const;
@@ -80,7 +85,7 @@ class ObjectsNode {
   ObjectsConfig objects_;
   double config_height_m_;
   Sink sink_;
-  CameraModel camera_;
+  CalibrationKeeper calibration_;
   std::optional<ObjectTracker> tracker_;
   std::array<Ground, kKept> kept_{};
   std::size_t next_ = 0;

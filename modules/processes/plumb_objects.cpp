@@ -1,6 +1,7 @@
 /// plumb-objects: CAMERA_CALIBRATION, GROUND_PLANE, EGO_MOTION, DETECTIONS -> OBJECTS
 #include <optional>
 
+#include "modules/camera/front_end.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/objects/objects_node.hpp"
 #include "platform/clock.hpp"
@@ -28,7 +29,11 @@ class ObjectsProcess {
         detections_(process.bus(), plumb::kDetections, plumb::Input::kPeriodic,
                     [this](const plumb::detections_t& m) { return on_detections(m); }),
         plane_timeout_(process.loop().timer([this] { on_timeout(); })) {
-    process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+    if (const auto camera = plumb::stated_model(config.camera)) {
+      node_.configure_camera(*camera);
+    } else {
+      process.health().set_condition(plumb::HealthState::kWaiting, "no CAMERA_CALIBRATION yet");
+    }
   }
 
  private:
