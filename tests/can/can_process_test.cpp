@@ -88,6 +88,14 @@ class CanProgramLive : public ::testing::Test {
     EXPECT_EQ(reader.error(), "");
     return list;
   }
+  /// Keeps the newest health message of plumb-can in `newest`, as long as the result lives.
+  [[nodiscard]] Subscriber<process_health_t> watch_health(process_health_t* newest) {
+    return {*bus_, kHealthCan, Input::kPeriodic,
+            [newest](const process_health_t& message) -> const char* {
+              *newest = message;
+              return nullptr;
+            }};
+  }
   /// Publishes an image of a drive that was taken just now.
   void publish(std::int64_t seq, double speed_m_s) {
     Publisher<ground_plane_t> planes(*bus_, kGroundPlane);
@@ -141,11 +149,7 @@ TEST_F(CanProgramLive, SendsWhatItHearsThenNotAvailableAndStopsCleanly) {
 
 TEST_F(CanProgramLive, SendsNothingOldAsValidAfterItWasStopped) {
   process_health_t newest{};
-  Subscriber<process_health_t> health(*bus_, kHealthCan, Input::kPeriodic,
-                                      [&](const process_health_t& message) -> const char* {
-                                        newest = message;
-                                        return nullptr;
-                                      });
+  const auto health = watch_health(&newest);
   const test::TempFile trace(".can", "");
   ChildProcess can(command(trace.path()));
   wait_for_content(trace.path());
@@ -244,11 +248,7 @@ TEST_F(CanProgramLive, StopsWithAReasonWhenTheDiskIsFullAndThereIsNoBus) {
 
 TEST_F(CanProgramLive, ReportsItsHealth) {
   process_health_t newest{};
-  Subscriber<process_health_t> health(*bus_, kHealthCan, Input::kPeriodic,
-                                      [&](const process_health_t& message) -> const char* {
-                                        newest = message;
-                                        return nullptr;
-                                      });
+  const auto health = watch_health(&newest);
   ChildProcess can({"plumb-can", "--lcm-url", kUrl, "--interface", "nocan7"});
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   while (newest.state != 2 && std::chrono::steady_clock::now() < end) bus_->handle(100);
