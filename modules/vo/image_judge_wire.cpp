@@ -62,7 +62,7 @@ ImageJudge::ImageJudge(const IntegrityConfig& config, int width_px, int height_p
 const char* ImageJudge::judge_time(const ImageFrame& frame, std::int64_t arrival_us) {
   const std::int32_t base = verdict_.reset_count;
   const TimeVerdict verdict = time_.update({frame.capture_us, frame.seq, frame.session});
-  if (!verdict.is_next_picture() || is_far_ahead(frame, verdict)) {
+  if (!verdict.is_next_picture() || has_distant_number(frame, verdict)) {
     ++num_refused_;
     return describe(verdict.reason);
   }
@@ -91,7 +91,7 @@ const char* ImageJudge::judge_time(const ImageFrame& frame, std::int64_t arrival
 
 /// Whether the number alone says that the image belongs to somebody else. An image of doubtful time
 /// may be one of ours only if its number is near.
-bool ImageJudge::is_far_ahead(const ImageFrame& frame, const TimeVerdict& verdict) const {
+bool ImageJudge::has_distant_number(const ImageFrame& frame, const TimeVerdict& verdict) const {
   constexpr std::int64_t kNear = 16;
   return !verdict.is_valid() && handed_on_.seq >= 0 &&
          (frame.seq > handed_on_.seq + kNear || frame.seq <= handed_on_.seq);

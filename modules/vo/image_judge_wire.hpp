@@ -43,7 +43,7 @@ class ImageJudge {
   [[nodiscard]] std::int64_t num_lost() const { return num_lost_; }
 
  private:
-  [[nodiscard]] bool is_far_ahead(const ImageFrame& frame, const TimeVerdict& verdict) const;
+  [[nodiscard]] bool has_distant_number(const ImageFrame& frame, const TimeVerdict& verdict) const;
   [[nodiscard]] double guess_interval_s() const;
 
   TimeBase time_;
