@@ -8,14 +8,7 @@ namespace {
 
 constexpr std::int64_t kHour_us = 3'600'000'000;
 
-FaultRun sound(const FaultDrive& drive) {
-  FaultRun run{drive.camera, {}};
-  for (const RecordedImage& image : drive.images) {
-    run.shots.push_back(
-        {image.capture_us, image.seq, image.pixels, image.capture_us, image.speed_m_s, false});
-  }
-  return run;
-}
+FaultRun sound(const FaultDrive& drive) { return sound_run(drive); }
 
 /// Where faults begin: two fifths into the drive, when the estimators run.
 std::size_t middle(const FaultRun& run) { return run.shots.size() * 2 / 5; }
@@ -33,9 +26,7 @@ FaultRun changed(FaultRun run, std::size_t from, std::size_t count, Change chang
 }
 
 Pixels edited(const Pixels& from, const std::function<void(std::vector<std::uint8_t>*)>& edit) {
-  auto pixels = std::make_shared<std::vector<std::uint8_t>>(*from);
-  edit(pixels.get());
-  return pixels;
+  return edited_picture(from, edit);
 }
 
 /// Sensor noise of `std_grey` on top of a picture, so that a repeated one is not equal to the bit.
@@ -172,7 +163,8 @@ Fault faster_car(std::size_t n) {
           // A car that is so fast brakes harder, too: the speed of this very step is the truth.
           const double step_m =
               i < n ? 0.0 : drive.images[i].position_m - drive.images[i - n].position_m;
-          run.shots.push_back({at_us, seq, drive.images[i].pixels, at_us, 10.0 * step_m, false});
+          run.shots.push_back({at_us, seq, drive.images[i].pixels, at_us, 10.0 * step_m, false,
+                               drive.images[i].position_m});
         }
         return run;
       }};
@@ -242,7 +234,7 @@ Fault each_picture_n_times(std::size_t n) {
                 const std::int64_t at_us =
                     image.capture_us + step_us * static_cast<std::int64_t>(k);
                 run.shots.push_back({at_us, seq, noisy(image.pixels, 0.5, i * n + k), at_us,
-                                     image.speed_m_s, k > 0});
+                                     image.speed_m_s, k > 0, image.position_m});
               }
             }
             return run;
@@ -350,6 +342,22 @@ std::vector<Fault> make_all() {
 }
 
 }  // namespace
+
+FaultRun sound_run(const FaultDrive& drive) {
+  FaultRun run{drive.camera, {}};
+  for (const RecordedImage& image : drive.images) {
+    run.shots.push_back({image.capture_us, image.seq, image.pixels, image.capture_us,
+                         image.speed_m_s, false, image.position_m});
+  }
+  return run;
+}
+
+Pixels edited_picture(const Pixels& from,
+                      const std::function<void(std::vector<std::uint8_t>*)>& edit) {
+  auto pixels = std::make_shared<std::vector<std::uint8_t>>(*from);
+  edit(pixels.get());
+  return pixels;
+}
 
 const std::vector<Fault>& all_faults() {
   static const std::vector<Fault> faults = make_all();
