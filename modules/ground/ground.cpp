@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "modules/ground/covariance/fixed_covariance.hpp"
 #include "modules/ground/covariance/learned_covariance.hpp"
 #include "modules/ground/covariance/residual_statistics.hpp"
@@ -13,6 +14,8 @@
 #include "modules/ground/cues/objects_cue.hpp"
 #include "modules/ground/cues/points_cue.hpp"
 #include "modules/ground/ego/ego_motion.hpp"
+#include "modules/ground/ego/unit_watch.hpp"
+#include "modules/ground/filter/scale_drift.hpp"
 #include "modules/ground/plane_report.hpp"
 
 namespace plumb {
@@ -43,10 +46,14 @@ struct GroundEstimator::Impl {
         points_cue(config.filter, *covariance),
         objects_cue(*covariance),
         filter(covariance->road_bend(), config.filter),
-        ego(config.ego) {}
+        drift(config.filter),
+        ego(config.ego),
+        unit_watch(config.ego) {}
 
   CueFrame take(const GroundInput& input);
   void take_height(const CameraHeight& height);
+  void watch_unit(const VoOutput& vo, CueFrame* frame);
+  void follow_drift(const VoOutput& vo, bool measured);
   FramePrior predict(const CueFrame& frame);
   void expect_plane(const CueFrame& frame, FramePrior* prior);
   Observations measure(const CueFrame& frame, FramePrior* prior, StageProbe& probe);
@@ -69,8 +76,11 @@ struct GroundEstimator::Impl {
   std::array<Cue*, kNumCues> cues{&dense_cue, &points_cue, &objects_cue};  ///< as in kCueTable
   PlaneFilter filter;
   ResidualStatistics residuals;
+  ScaleDrift drift;
   EgoMotion ego;
+  UnitWatch unit_watch;
   std::int32_t scale_epoch = 0;
+  std::int64_t last_us = 0;  ///< capture time of the image before; 0: none
   GroundOutput out;
   CueDiagnostics diagnostics;
 };
@@ -96,6 +106,7 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   const Eigen::Vector3d normal =
       m.filter.started() ? m.filter.normal() : Eigen::Vector3d(Eigen::Vector3d::UnitY());
   const bool measured = any_height(observations, CueStatus::kUsed);
+  m.follow_drift(*frame.vo, measured);
   m.ego.update(*frame.vo, m.scale(prior, measured), normal, &m.out.ego);
   probe.mark("ego");
   return m.out;
@@ -110,6 +121,7 @@ CueFrame GroundEstimator::Impl::take(const GroundInput& input) {
   frame.objects = input.objects;
   if (has_rotation(vo)) frame.chord = measure_chord(vo);
   if (input.camera_height.height_m > 0.0) take_height(input.camera_height);
+  watch_unit(vo, &frame);
   row_clock.take(vo.seq, vo.capture_us);
   if (ring.fits(input.image)) {
     const bool stands = vo.status == VoStatus::kStandstill;
@@ -117,6 +129,35 @@ CueFrame GroundEstimator::Impl::take(const GroundInput& input) {
         stands ? &ring.replace_newest(vo.seq, input.image) : &ring.push(vo.seq, input.image);
   }
   return frame;
+}
+
+/// Applies what is known of VO's unit in this image. While VO's steps mean nothing, no cue measures
+/// anything by them.
+void GroundEstimator::Impl::watch_unit(const VoOutput& vo, CueFrame* frame) {
+  if (vo.scale_epoch != scale_epoch) {
+    scale_epoch = vo.scale_epoch;
+    if (filter.started()) filter.change_unit(vo.scale_carry_std);
+    drift.change_unit();
+  }
+  const double metres_per_vo =
+      filter.started() ? camera_height.height_m / filter.height() : 0.0;
+  const UnitVerdict verdict = unit_watch.watch(vo, metres_per_vo);
+  if (verdict == UnitVerdict::kSteady) return;
+  frame->chord.valid = false;
+  if (verdict == UnitVerdict::kJump) drift.change_unit();
+  filter.reset();
+}
+
+/// While the car stands, VO holds its position, and its unit does not drift.
+void GroundEstimator::Impl::follow_drift(const VoOutput& vo, bool measured) {
+  const double dt_s = last_us > 0 ? 1e-6 * static_cast<double>(vo.capture_us - last_us) : 0.0;
+  last_us = vo.capture_us;
+  if (!filter.started() || !(dt_s > 0.0)) return;
+  if (measured) {
+    drift.measured(filter.state()(2), filter.cov()(2, 2), dt_s);
+  } else if (vo.status == VoStatus::kOk || vo.status == VoStatus::kCoasting) {
+    filter.add_height_var(drift.held(dt_s));
+  }
 }
 
 /// The scale stays when the body rises or sinks: the height in VO's unit changes with the metric
@@ -130,10 +171,6 @@ void GroundEstimator::Impl::take_height(const CameraHeight& height) {
 
 FramePrior GroundEstimator::Impl::predict(const CueFrame& frame) {
   const VoOutput& vo = *frame.vo;
-  if (vo.scale_epoch != scale_epoch) {
-    scale_epoch = vo.scale_epoch;
-    if (filter.started()) filter.change_unit(vo.scale_carry_std);
-  }
   FramePrior prior;
   if (!has_rotation(vo)) return prior;
   if (filter.started()) {
@@ -270,6 +307,7 @@ ScaleEstimate GroundEstimator::Impl::scale(const FramePrior& prior, bool measure
   scale.measured_now = measured;
   scale.log_scale = std::log(camera_height.height_m) - filter.state()(2);
   scale.var = filter.cov()(2, 2) + constant_var;
+  scale.known = scale.var <= square(config.ego.most_log_scale_std);
   if (prior.ln_height_var > 0.0) {
     scale.kept_ratio = std::clamp(scale.var / (prior.ln_height_var + constant_var), 0.0, 1.0);
   }

@@ -9,7 +9,7 @@ namespace plumb {
 namespace {
 
 constexpr double kLeastError_m_s = 0.3;
-// Truth by satellites jitters from image to image: it is averaged over this many to either side.
+// VO's steps scatter: the true scale is that over this many to either side.
 constexpr std::size_t kReachImages = 4;
 
 struct Step {
@@ -21,26 +21,10 @@ double seconds(const Shot& from, const Shot& to) {
   return 1e-6 * static_cast<double>(to.true_us - from.true_us);
 }
 
-/// Steps of the same interval on either side of the step that ends at image i, at most `most`.
-std::size_t even_reach(const std::vector<Shot>& shots, std::size_t i, std::size_t most) {
-  const double dt_s = seconds(shots[i - 1], shots[i]);
-  const auto even = [&](std::size_t k) {
-    return seconds(shots[k - 1], shots[k]) < 1.5 * dt_s && seconds(shots[k - 1], shots[k]) > dt_s / 1.5;
-  };
-  std::size_t reach = 0;
-  while (reach < most && i + reach + 1 < shots.size() && i >= reach + 2 && even(i + reach + 1) &&
-         even(i - reach - 1)) {
-    ++reach;
-  }
-  return reach;
-}
-
-/// Mean speed over the images around the step that ends at image i. @pre i > 0
-double true_speed(const std::vector<Shot>& shots, std::size_t i, std::size_t most) {
-  const std::size_t reach = even_reach(shots, i, most);
-  const Shot& begin = shots[i - 1 - reach];
-  const Shot& end = shots[i + reach];
-  return (end.true_position_m - begin.true_position_m) / seconds(begin, end);
+/// Mean speed over the step that ends at image i. @pre i > 0
+double true_speed(const std::vector<Shot>& shots, std::size_t i) {
+  return (shots[i].true_position_m - shots[i - 1].true_position_m) /
+         seconds(shots[i - 1], shots[i]);
 }
 
 double true_log_scale(const std::vector<Shot>& shots, const std::vector<Step>& steps,
@@ -98,7 +82,7 @@ std::vector<FrameTrust> judge_trust(const FaultRun& run, std::size_t speed_up,
   frames.resize(run.shots.size());
   steps.resize(run.shots.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].true_speed_m_s = true_speed(run.shots, std::max<std::size_t>(1, i), reach);
+    frames[i].true_speed_m_s = true_speed(run.shots, std::max<std::size_t>(1, i));
     frames[i].true_log_scale = true_log_scale(run.shots, steps, i, reach);
   }
   return frames;
