@@ -21,6 +21,11 @@
 namespace plumb {
 namespace {
 
+// A start is proven by this many images with a measured height, and has failed after this many
+// others.
+constexpr int kStartProven = 3;
+constexpr int kStartFailed = 3;
+
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
   if (config.covariance == "fixed") return std::make_unique<FixedCovariance>();
@@ -34,6 +39,15 @@ bool has_rotation(const VoOutput& vo) {
 }
 
 }  // namespace
+
+/// What speaks for a start of the filter and against it, until enough does.
+struct StartTrial {
+  int num_used = 0;    ///< images with a measured height since the start or a new unit
+  int num_missed = 0;  ///< images in which the road should have been seen
+  bool open = false;   ///< the start can still turn out to be wrong
+
+  void take(bool used) { (used ? num_used : num_missed) += 1; }
+};
 
 struct GroundEstimator::Impl {
   Impl(const GroundConfig& config_in, const CameraModel& camera, const GroundModel& model)
@@ -60,6 +74,7 @@ struct GroundEstimator::Impl {
   void fuse(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void fuse_height(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void report(const CueFrame& frame, const FramePrior& prior, const Observations& observations);
+  void try_start(bool used, bool rejected);
   void diagnose(const CueFrame& frame, const FramePrior& prior);
   [[nodiscard]] HeightMeasurement height_seen(const Observations& observations) const;
   [[nodiscard]] RoadShape road_shape(const Chord& chord) const;
@@ -80,6 +95,7 @@ struct GroundEstimator::Impl {
   EgoMotion ego;
   UnitWatch unit_watch;
   std::int32_t scale_epoch = 0;
+  StartTrial trial;
   std::int64_t last_us = 0;  ///< capture time of the image before; 0: none
   GroundOutput out;
   CueDiagnostics diagnostics;
@@ -138,6 +154,7 @@ void GroundEstimator::Impl::watch_unit(const VoOutput& vo, CueFrame* frame) {
     scale_epoch = vo.scale_epoch;
     if (filter.started()) filter.change_unit(vo.scale_carry_std);
     drift.change_unit();
+    trial = {};
   }
   const double metres_per_vo =
       filter.started() ? camera_height.height_m / filter.height() : 0.0;
@@ -235,6 +252,7 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   if (starts) {
     start_filter(*observations, &filter);
     residuals.reset();
+    trial = {0, 0, true};
   }
   if (!filter.started()) return;
   filter.fuse(filter.level_roll());
@@ -247,12 +265,22 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   filter.fuse(path);
   fuse_cues(true, &filter, observations);
   const bool rejected = any_height(*observations, CueStatus::kGated);
+  const bool used = any_height(*observations, CueStatus::kUsed);
   // Cues that contradict each other did not start on the road, but on a truck's back or a mirror.
   if (starts && rejected) filter.reset();
-  filter.end_frame(any_height(*observations, CueStatus::kUsed), rejected);
+  try_start(used, rejected);
+  filter.end_frame(used, rejected);
   const bool dense_used = (*observations)[kCueDense].report.status == CueStatus::kUsed;
   residuals.add({prior.context, frame.chord.direction, dense_used ? &dense_cue.last() : nullptr},
                 filter.ahead());
+}
+
+/// A start that the next images do not confirm was none.
+void GroundEstimator::Impl::try_start(bool used, bool rejected) {
+  trial.take(used);
+  if (!trial.open) return;
+  trial.open = trial.num_used < kStartProven;
+  if (trial.open && ((rejected && !used) || trial.num_missed >= kStartFailed)) filter.reset();
 }
 
 void GroundEstimator::Impl::report(const CueFrame& frame, const FramePrior& prior,
@@ -306,8 +334,11 @@ ScaleEstimate GroundEstimator::Impl::scale(const FramePrior& prior, bool measure
   const double constant_var = bias_std * bias_std + camera_height.var_ratio();
   scale.measured_now = measured;
   scale.log_scale = std::log(camera_height.height_m) - filter.state()(2);
-  scale.var = filter.cov()(2, 2) + constant_var;
-  scale.known = scale.var <= square(config.ego.most_log_scale_std);
+  // A single height may be wrong by more than its own image can tell.
+  const double doubt = config.filter.start_doubt_std / std::max(1, trial.num_used);
+  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt;
+  const bool confirmed = !trial.open || trial.num_used >= config.filter.start_confirmations;
+  scale.known = confirmed && scale.var <= square(config.ego.most_log_scale_std);
   if (prior.ln_height_var > 0.0) {
     scale.kept_ratio = std::clamp(scale.var / (prior.ln_height_var + constant_var), 0.0, 1.0);
   }

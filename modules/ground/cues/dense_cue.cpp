@@ -15,6 +15,12 @@ namespace {
 // 10 images/s from 1.3 to 60 m/s.
 constexpr std::array<double, 6> kSearchSteps{0.12, 0.26, 0.5, 0.95, 1.7, 3.0};
 
+// Points with a known depth count as below a plane when they lie this many heights under the camera.
+constexpr float kKnownDepthStd = 0.1F;
+constexpr double kFarBelow = 1.4;
+constexpr int kLeastBelow = 8;
+constexpr double kMostBelow = 0.3;
+
 constexpr std::size_t kMostResults = kSearchSteps.size() + 1;
 using Results = FixedVector<DenseMeasurement, kMostResults>;
 
@@ -22,6 +28,18 @@ using Results = FixedVector<DenseMeasurement, kMostResults>;
 /// one that explains no more than standing still does.
 double misfit(const DenseMeasurement& dense) {
   return (1.0 - dense.ncc) / std::max(1e-6, 1.0 - dense.still_ncc);
+}
+
+/// Nothing lies under the road: whether a good share of VO's points says that this plane is none.
+bool is_above_points(const DenseMeasurement& dense, const VoOutput& vo) {
+  int num_points = 0;
+  int num_below = 0;
+  for (const RoadPoint& point : vo.road_points) {
+    if (point.rel_std > kKnownDepthStd) continue;
+    ++num_points;
+    if (dense.q.dot(point.p_cam.cast<double>()) > kFarBelow) ++num_below;
+  }
+  return num_below >= kLeastBelow && num_below > kMostBelow * num_points;
 }
 
 double ln_height_between(const DenseMeasurement& a, const DenseMeasurement& b) {
@@ -84,9 +102,8 @@ DenseCue::Found DenseCue::search(const CueFrame& frame, const FramePrior& prior,
   if (frame.vo->status != VoStatus::kOk || !frame.chord.valid || frame.image == nullptr) return {};
   Results results;
   const auto add = [&](const DenseMeasurement& dense) {
-    if (covariance_.dense_quality(dense) >= config_.least_dense_quality) {
-      (void)results.push_back(dense);
-    }
+    if (covariance_.dense_quality(dense) < config_.least_dense_quality) return;
+    if (!is_above_points(dense, *frame.vo)) (void)results.push_back(dense);
   };
   add(expected);
   const bool has_expected = !results.empty();
@@ -113,7 +130,7 @@ DenseCue::Found DenseCue::search(const CueFrame& frame, const FramePrior& prior,
   }
   const bool good = num_agreeing > 1 ||
                     covariance_.dense_quality(*best) >= config_.start_dense_quality;
-  return {*best, good && alone};
+  return {*best, good && alone && misfit(*best) <= config_.start_misfit};
 }
 
 /// The observation of `last_`, whose covariance is that of a frame with `prior`.

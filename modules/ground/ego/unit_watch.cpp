@@ -8,7 +8,7 @@ namespace {
 constexpr double kSecondsPerMicro = 1e-6;
 // A jump exceeds the scatter of VO's steps by far, as a share of the speed.
 constexpr double kLeastJumpRatio = 0.12;
-constexpr double kNumStd = 3.0;
+constexpr double kNumStd = 2.0;
 constexpr int kSteadySteps = 3;
 
 }  // namespace

@@ -16,7 +16,8 @@ struct EgoConfig {
   double start_accel_std_m_s2 = 3.0;
   double most_accel_m_s2 = 6.0;
   double most_brake_m_s2 = 11.0;
-  double most_log_scale_std = 0.2;
+  double most_log_scale_std = 0.35;
+  double scatter_memory_s = 2.0;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
@@ -41,6 +42,8 @@ struct EgoConfig {
     field("ground.ego.most_brake_m_s2", c.most_brake_m_s2, 1.0, 100.0, "the same for braking");
     field("ground.ego.most_log_scale_std", c.most_log_scale_std, 0.01, 2.0,
           "1-sigma of ln scale above which the scale counts as not known");
+    field("ground.ego.scatter_memory_s", c.scatter_memory_s, 0.1, 60.0,
+          "time over which the scatter of the speeds is averaged, for their standard deviation");
   }
 };
 

@@ -45,6 +45,9 @@ struct FilterConfig {
   double agree_ln_height = 0.03;
   double distinct_ln_height = 0.1;
   double start_misfit_ratio = 0.55;
+  double start_misfit = 0.6;
+  int start_confirmations = 2;
+  double start_doubt_std = 0.05;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field);
@@ -121,6 +124,13 @@ void visit_start(Config& c, Visit&& field) {
   field("ground.filter.start_misfit_ratio", c.start_misfit_ratio, 0.01, 1.0,
         "the filter starts when the best height leaves at most this share of the misfit that the "
         "best contradicting one leaves");
+  field("ground.filter.start_misfit", c.start_misfit, 0.01, 1.0,
+        "and at most this share of what moved in the images");
+  field("ground.filter.start_confirmations", c.start_confirmations, 1, 100,
+        "images with a measured height after a start, itself among them, before the scale is known");
+  field("ground.filter.start_doubt_std", c.start_doubt_std, 0.0, 1.0,
+        "1-sigma of ln scale on top of the filter's, divided by the number of images with a measured "
+        "height since a start or a new unit");
 }
 
 template <typename Config, typename Visit>
