@@ -74,7 +74,7 @@ Observation DenseCue::start(const CueFrame& frame, const FramePrior& prior) {
   const Found found = search(frame, prior, attempt.dense);
   last_ = found.best.ok ? found.best : attempt.dense;
   if (!found.sure) {
-    if (found.best.ok) next.measurable = false;
+    if (found.contradicted) next.measurable = false;
     return observed(prior, next, attempt.looked ? CueStatus::kFailed : CueStatus::kAbsent);
   }
   next.height = 1.0 / last_.q.norm();
@@ -117,9 +117,9 @@ DenseCue::Found DenseCue::search(const CueFrame& frame, const FramePrior& prior,
   const auto* best = std::min_element(
       results.begin(), results.end(),
       [](const auto& a, const auto& b) { return misfit(a) < misfit(b); });
-  if (has_expected && ln_height_between(expected, *best) < config_.agree_ln_height) {
-    best = results.begin();
-  }
+  const bool expects =
+      has_expected && ln_height_between(expected, *best) < config_.agree_ln_height;
+  if (expects) best = results.begin();
   int num_agreeing = 0;
   bool alone = true;
   for (const DenseMeasurement& other : results) {
@@ -128,9 +128,11 @@ DenseCue::Found DenseCue::search(const CueFrame& frame, const FramePrior& prior,
     if (apart < config_.distinct_ln_height) continue;
     alone = alone && misfit(*best) <= config_.start_misfit_ratio * misfit(other);
   }
-  const bool good = num_agreeing > 1 ||
-                    covariance_.dense_quality(*best) >= config_.start_dense_quality;
-  return {*best, good && alone && misfit(*best) <= config_.start_misfit};
+  // A height that nothing else suggests has to be found from two sides.
+  const bool good =
+      num_agreeing > 1 ||
+      (expects && covariance_.dense_quality(*best) >= config_.start_dense_quality);
+  return {*best, good && alone && misfit(*best) <= config_.start_misfit, !alone};
 }
 
 /// The observation of `last_`, whose covariance is that of a frame with `prior`.

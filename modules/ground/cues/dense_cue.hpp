@@ -38,8 +38,9 @@ class DenseCue final : public Cue {
   [[nodiscard]] Attempt align(const CueFrame& frame, const FramePrior& prior);
   /// What the heights tried at the start came to.
   struct Found {
-    DenseMeasurement best;   ///< not ok when there is none
-    bool sure = false;       ///< good enough, and no other height explains the road about as well
+    DenseMeasurement best;      ///< not ok when there is none
+    bool sure = false;          ///< good enough, and not contradicted
+    bool contradicted = false;  ///< another height explains the road about as well
   };
 
   [[nodiscard]] Observation start(const CueFrame& frame, const FramePrior& prior);
