@@ -156,8 +156,7 @@ void GroundEstimator::Impl::watch_unit(const VoOutput& vo, CueFrame* frame) {
     drift.change_unit();
     trial = {};
   }
-  const double metres_per_vo =
-      filter.started() ? camera_height.height_m / filter.height() : 0.0;
+  const double metres_per_vo = filter.started() ? camera_height.height_m / filter.height() : 0.0;
   const UnitVerdict verdict = unit_watch.watch(vo, metres_per_vo);
   if (verdict == UnitVerdict::kSteady) return;
   frame->chord.valid = false;

@@ -78,8 +78,41 @@ TEST(GroundEstimator, MeasuresPlaneScaleAndMotionOfARenderedDrive) {
     EXPECT_NEAR(run.scale_error(out), 0.0, k < 12 ? 0.04 : 0.015) << "frame " << k;
     EXPECT_NEAR(out.plane.pitch_rad, std::asin(truth.normal_cam.z()), 0.006) << "frame " << k;
     EXPECT_NEAR(out.plane.roll_rad, std::atan2(truth.normal_cam.x(), truth.normal_cam.y()), 0.012);
-    EXPECT_EQ(out.ego.status, EgoStatus::kOk);
+    // One image alone does not make a scale.
+    EXPECT_EQ(out.ego.status, k < 3 ? EgoStatus::kInitializing : EgoStatus::kOk) << "frame " << k;
   }
+}
+
+TEST(GroundEstimator, AJumpOfVosSpeedLosesTheScaleUntilItIsMeasuredAnew) {
+  Rehearsal run;
+  for (int k = 0; k < 16; ++k) run.step(k);
+  VoOutput vo;
+  test::script_vo(footage().poses, 16, run.script, &vo);
+  vo.T_prev_cam.t *= 3.0;
+  EXPECT_EQ(run.step(vo, 16).ego.status, EgoStatus::kInitializing);
+  for (int k = 17; k < 21; ++k) EXPECT_EQ(run.step(k).ego.status, EgoStatus::kInitializing);
+  for (int k = 21; k < 30; ++k) run.step(k);
+  const GroundOutput& out = run.step(30);
+  EXPECT_EQ(out.ego.status, EgoStatus::kOk);
+  EXPECT_NEAR(run.scale_error(out), 0.0, 0.04);
+}
+
+TEST(GroundEstimator, ScaleIsKnownLessTheLongerNoCueSeesTheRoad) {
+  Rehearsal run;
+  VoOutput vo;
+  for (int k = 0; k < 10; ++k) run.step(k);
+  const double before = run.step(10).ego.log_scale_std;
+  run.with_images = false;
+  double last = before;
+  for (int k = 11; k < 36; ++k) {
+    test::script_vo(footage().poses, k, run.script, &vo);
+    vo.road_points.clear();
+    const GroundOutput& out = run.step(vo, k);
+    EXPECT_EQ(out.ego.status, EgoStatus::kScaleHeld);
+    EXPECT_GE(out.ego.log_scale_std, last);
+    last = out.ego.log_scale_std;
+  }
+  EXPECT_GT(last, 1.2 * before);
 }
 
 TEST(GroundEstimator, IntegratedPathEndsWhereTheDriveEnds) {

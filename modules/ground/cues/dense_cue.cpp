@@ -15,7 +15,8 @@ namespace {
 // 10 images/s from 1.3 to 60 m/s.
 constexpr std::array<double, 6> kSearchSteps{0.12, 0.26, 0.5, 0.95, 1.7, 3.0};
 
-// Points with a known depth count as below a plane when they lie this many heights under the camera.
+// Points with a known depth count as below a plane when they lie this many heights under the
+// camera.
 constexpr float kKnownDepthStd = 0.1F;
 constexpr double kFarBelow = 1.4;
 constexpr int kLeastBelow = 8;
@@ -78,7 +79,8 @@ Observation DenseCue::start(const CueFrame& frame, const FramePrior& prior) {
     return observed(prior, next, attempt.looked ? CueStatus::kFailed : CueStatus::kAbsent);
   }
   next.height = 1.0 / last_.q.norm();
-  if (prior.measurable && last_.q == attempt.dense.q) return observed(prior, next, CueStatus::kUsed);
+  if (prior.measurable && last_.q == attempt.dense.q)
+    return observed(prior, next, CueStatus::kUsed);
   next.context = {std::abs(frame.chord.curvature) * next.height, frame.chord.step / next.height};
   next.measurable = true;
   return observed(next, next, CueStatus::kUsed);
@@ -114,11 +116,10 @@ DenseCue::Found DenseCue::search(const CueFrame& frame, const FramePrior& prior,
     add(align(frame, at).dense);
   }
   if (results.empty()) return {};
-  const auto* best = std::min_element(
-      results.begin(), results.end(),
-      [](const auto& a, const auto& b) { return misfit(a) < misfit(b); });
-  const bool expects =
-      has_expected && ln_height_between(expected, *best) < config_.agree_ln_height;
+  const auto* best =
+      std::min_element(results.begin(), results.end(),
+                       [](const auto& a, const auto& b) { return misfit(a) < misfit(b); });
+  const bool expects = has_expected && ln_height_between(expected, *best) < config_.agree_ln_height;
   if (expects) best = results.begin();
   int num_agreeing = 0;
   bool alone = true;
@@ -129,9 +130,8 @@ DenseCue::Found DenseCue::search(const CueFrame& frame, const FramePrior& prior,
     alone = alone && misfit(*best) <= config_.start_misfit_ratio * misfit(other);
   }
   // A height that nothing else suggests has to be found from two sides.
-  const bool good =
-      num_agreeing > 1 ||
-      (expects && covariance_.dense_quality(*best) >= config_.start_dense_quality);
+  const bool good = num_agreeing > 1 ||
+                    (expects && covariance_.dense_quality(*best) >= config_.start_dense_quality);
   return {*best, good && alone && misfit(*best) <= config_.start_misfit, !alone};
 }
 

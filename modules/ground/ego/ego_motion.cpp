@@ -184,7 +184,8 @@ void EgoMotion::write_rates(const VoOutput& vo, const ScaleEstimate& scale,
 double EgoMotion::scatter_factor(const VoOutput& vo, double speed_m_s, double speed_var,
                                  double dt_s) {
   if (vo.status == VoStatus::kCoasting) return 1.0;
-  const double scatter = config_.least_speed_std_m_s + config_.step_scatter_ratio * std::abs(speed_m_s);
+  const double scatter =
+      config_.least_speed_std_m_s + config_.step_scatter_ratio * std::abs(speed_m_s);
   speed_.update(speed_m_s, scatter * scatter, dt_s);
   const bool expected = !std::isnan(speed_.innovation_m_s());
   if (vo.status != VoStatus::kOk || !expected || !(speed_var > 0.0)) return 1.0;

@@ -17,8 +17,8 @@ class SpeedFilter {
   /// Takes the mean speed over the last `dt_s`. @pre dt_s > 0
   void update(double speed_m_s, double speed_var, double dt_s);
 
-  /// The last speed minus the one that those before made expect, and the variance of the latter; NaN
-  /// for the first speed.
+  /// The last speed minus the one that those before made expect, and the variance of the latter;
+  /// NaN for the first speed.
   [[nodiscard]] double innovation_m_s() const { return innovation_m_s_; }
   [[nodiscard]] double expected_var() const { return expected_var_; }
   /// With three speeds, the acceleration is more than the start value.

@@ -22,8 +22,8 @@ double StepScatter::factor(double difference_m_s, double expected_var, double st
   const double difference2 = square(difference_m_s);
   const double least_var = difference2 / square(kMostStds) - expected_var;
   const double result = std::max(mean_factor_, least_var / stated_var);
-  const double seen = std::clamp((difference2 - expected_var) / stated_var, 0.0,
-                                 kMostOfOneImage * mean_factor_);
+  const double seen =
+      std::clamp((difference2 - expected_var) / stated_var, 0.0, kMostOfOneImage * mean_factor_);
   const double share = 1.0 - std::exp(-dt_s / config_.scatter_memory_s);
   mean_factor_ =
       std::clamp(mean_factor_ + share * (seen - mean_factor_), kLeastFactor, kMostFactor);

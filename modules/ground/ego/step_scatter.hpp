@@ -1,10 +1,10 @@
 /// How far VO's steps scatter, as this drive shows it: the factor on the variance that VO states.
 ///
 /// A vehicle's speed changes smoothly. What a measured speed differs by from the one that the speed
-/// filter expects is therefore mostly VO's error. The mean of its square over the last seconds gives
-/// a factor for all images. A single image that differs by more is one with a larger error, or one
-/// in which the vehicle begins to brake: its own variance grows until the difference is no more than
-/// two standard deviations.
+/// filter expects is therefore mostly VO's error. The mean of its square over the last seconds
+/// gives a factor for all images. A single image that differs by more is one with a larger error,
+/// or one in which the vehicle begins to brake: its own variance grows until the difference is no
+/// more than two standard deviations.
 ///
 /// Units:
 ///   m/s, seconds.

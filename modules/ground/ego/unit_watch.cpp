@@ -54,7 +54,8 @@ UnitVerdict UnitWatch::settle(const Speed& now) {
 /// Whether a vehicle may have changed its speed from `before` to `now`, give or take `num_std`
 /// standard deviations.
 bool UnitWatch::follows(const Speed& before, const Speed& now, double num_std) const {
-  const double passed_s = kSecondsPerMicro * static_cast<double>(now.capture_us - before.capture_us);
+  const double passed_s =
+      kSecondsPerMicro * static_cast<double>(now.capture_us - before.capture_us);
   const double change = now.vo_s - before.vo_s;
   const double most_m_s2 = change > 0.0 ? config_.most_accel_m_s2 : config_.most_brake_m_s2;
   const double scatter = num_std * std::hypot(before.std_vo_s, now.std_vo_s);

@@ -3,9 +3,9 @@
 ///
 /// After a gap, VO may find the old map's points at wrong places. It then reports a motion with
 /// small residuals that is several times too long, and while it recovers its unit changes. Between
-/// the last sound speed and this one the vehicle can have changed its speed by so much only. If VO's
-/// speed changed by more, nothing is known of the unit any more, and the steps that follow mean
-/// nothing until they are steady.
+/// the last sound speed and this one the vehicle can have changed its speed by so much only. If
+/// VO's speed changed by more, nothing is known of the unit any more, and the steps that follow
+/// mean nothing until they are steady.
 ///
 /// Units:
 ///   Speeds in [vo]/s; the scale in metres per [vo].

@@ -126,11 +126,13 @@ void visit_start(Config& c, Visit&& field) {
         "best contradicting one leaves");
   field("ground.filter.start_misfit", c.start_misfit, 0.01, 1.0,
         "and at most this share of what moved in the images");
-  field("ground.filter.start_confirmations", c.start_confirmations, 1, 100,
-        "images with a measured height after a start, itself among them, before the scale is known");
-  field("ground.filter.start_doubt_std", c.start_doubt_std, 0.0, 1.0,
-        "1-sigma of ln scale on top of the filter's, divided by the number of images with a measured "
-        "height since a start or a new unit");
+  field(
+      "ground.filter.start_confirmations", c.start_confirmations, 1, 100,
+      "images with a measured height after a start, itself among them, before the scale is known");
+  field(
+      "ground.filter.start_doubt_std", c.start_doubt_std, 0.0, 1.0,
+      "1-sigma of ln scale on top of the filter's, divided by the number of images with a measured "
+      "height since a start or a new unit");
 }
 
 template <typename Config, typename Visit>

@@ -151,23 +151,22 @@ Fault gap(const std::string& name, std::size_t count, const std::string& words) 
 
 /// Every n-th image at the old rate: a car that drives n times as fast.
 Fault faster_car(std::size_t n) {
-  return {
-      "fast_x" + std::to_string(n), 'I',
-      "every " + std::to_string(n) + ". image at the same rate: a car that many times as fast",
-      [n](const FaultDrive& drive) {
-        FaultRun run{drive.camera, {}};
-        const std::int64_t start_us = drive.images.front().capture_us;
-        std::int64_t seq = 0;
-        for (std::size_t i = 0; i < drive.images.size(); i += n, ++seq) {
-          const std::int64_t at_us = start_us + 100'000 * seq;
-          // A car that is so fast brakes harder, too: the speed of this very step is the truth.
-          const double step_m =
-              i < n ? 0.0 : drive.images[i].position_m - drive.images[i - n].position_m;
-          run.shots.push_back({at_us, seq, drive.images[i].pixels, at_us, 10.0 * step_m, false,
-                               drive.images[i].position_m});
-        }
-        return run;
-      }};
+  return {"fast_x" + std::to_string(n), 'I',
+          "every " + std::to_string(n) + ". image at the same rate: a car that many times as fast",
+          [n](const FaultDrive& drive) {
+            FaultRun run{drive.camera, {}};
+            const std::int64_t start_us = drive.images.front().capture_us;
+            std::int64_t seq = 0;
+            for (std::size_t i = 0; i < drive.images.size(); i += n, ++seq) {
+              const std::int64_t at_us = start_us + 100'000 * seq;
+              // A car that is so fast brakes harder, too: the speed of this very step is the truth.
+              const double step_m =
+                  i < n ? 0.0 : drive.images[i].position_m - drive.images[i - n].position_m;
+              run.shots.push_back({at_us, seq, drive.images[i].pixels, at_us, 10.0 * step_m, false,
+                                   drive.images[i].position_m});
+            }
+            return run;
+          }};
 }
 
 // --- pictures ----------------------------------------------------------------------------------

@@ -18,9 +18,9 @@ struct Shot {
   std::int64_t stamp_us = 0;  ///< as the image states it
   std::int64_t seq = 0;
   Pixels pixels;
-  std::int64_t true_us = 0;     ///< when the chain gets it, on a clock that never lies
-  double true_speed_m_s = 0.0;  ///< of the car at that time
-  bool faulty = false;          ///< this image, its stamp or its number is wrong
+  std::int64_t true_us = 0;      ///< when the chain gets it, on a clock that never lies
+  double true_speed_m_s = 0.0;   ///< of the car at that time
+  bool faulty = false;           ///< this image, its stamp or its number is wrong
   double true_position_m = 0.0;  ///< distance travelled since the drive's first image
 };
 

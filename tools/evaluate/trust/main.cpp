@@ -28,8 +28,8 @@ struct Arguments {
 };
 
 std::string table_row(const std::string& row, const std::string& drive, const TrustResult& r) {
-  return format("| %s | %s | %lld of %lld | %lld (%.1f %%) | %.1f m/s | %.2f | %.2f |\n", row.c_str(),
-                drive.c_str(), static_cast<long long>(r.num_valid),
+  return format("| %s | %s | %lld of %lld | %lld (%.1f %%) | %.1f m/s | %.2f | %.2f |\n",
+                row.c_str(), drive.c_str(), static_cast<long long>(r.num_valid),
                 static_cast<long long>(r.num_images), static_cast<long long>(r.num_wrong),
                 100.0 * r.wrong_ratio(), r.worst_error_m_s, r.speed_nees, r.scale_nees);
 }

@@ -27,8 +27,8 @@ double true_speed(const std::vector<Shot>& shots, std::size_t i) {
          seconds(shots[i - 1], shots[i]);
 }
 
-double true_log_scale(const std::vector<Shot>& shots, const std::vector<Step>& steps,
-                      std::size_t i, std::size_t most) {
+double true_log_scale(const std::vector<Shot>& shots, const std::vector<Step>& steps, std::size_t i,
+                      std::size_t most) {
   const std::size_t from = i < most ? 0 : i - most;
   const std::size_t to = std::min(i + most, shots.size() - 1);
   double vo = 0.0, metres = 0.0;

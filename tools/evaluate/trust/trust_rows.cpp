@@ -48,8 +48,7 @@ TrustRow fast(std::size_t n) {
 }
 
 TrustRow gaps(const std::string& name, std::size_t missing) {
-  return {name, "images are missing, at several places", 1,
-          [missing](const FaultDrive& drive) {
+  return {name, "images are missing, at several places", 1, [missing](const FaultDrive& drive) {
             std::vector<FaultRun> runs;
             for (std::size_t at = 15; at + missing + 15 < drive.images.size(); at += 12) {
               FaultRun run = sound_run(drive);
@@ -86,7 +85,8 @@ FaultRun dark_road(const FaultDrive& drive) {
 
 const std::vector<TrustRow>& all_trust_rows() {
   static const std::vector<TrustRow> rows = {
-      {"sound", "nothing", 1, [](const FaultDrive& drive) { return std::vector{sound_run(drive)}; }},
+      {"sound", "nothing", 1,
+       [](const FaultDrive& drive) { return std::vector{sound_run(drive)}; }},
       starts(1),
       starts(2),
       starts(3),
