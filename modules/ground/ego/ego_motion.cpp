@@ -169,7 +169,10 @@ void EgoMotion::write_rates(const VoOutput& vo, const ScaleEstimate& scale,
   auto step_cov = out->cov_prev_cam.topLeftCorner<3, 3>();
   const auto turn_cov = out->cov_prev_cam.bottomRightCorner<3, 3>();
   const double vo_var = forward * step_cov * forward.transpose();
-  step_cov *= scatter_factor(vo, out->velocity_ground_m_s.x(), vo_var / square(dt_s), dt_s);
+  const double factor =
+      scatter_factor(vo, out->velocity_ground_m_s.x(), vo_var / square(dt_s), dt_s);
+  out->cov_prev_cam.topRows<3>() *= std::sqrt(factor);
+  out->cov_prev_cam.leftCols<3>() *= std::sqrt(factor);
   step_cov += scale_cov;
   const double step_var = forward * step_cov * forward.transpose();
   const double turn_var = up * turn_cov * up.transpose();
