@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "modules/ground/covariance/fixed_covariance.hpp"
 #include "modules/ground/covariance/learned_covariance.hpp"
 #include "modules/ground/covariance/residual_statistics.hpp"
@@ -13,10 +14,17 @@
 #include "modules/ground/cues/objects_cue.hpp"
 #include "modules/ground/cues/points_cue.hpp"
 #include "modules/ground/ego/ego_motion.hpp"
+#include "modules/ground/ego/unit_watch.hpp"
+#include "modules/ground/filter/scale_drift.hpp"
 #include "modules/ground/plane_report.hpp"
 
 namespace plumb {
 namespace {
+
+// A start is proven by this many images with a measured height, and has failed after this many
+// others.
+constexpr int kStartProven = 3;
+constexpr int kStartFailed = 3;
 
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
@@ -32,6 +40,15 @@ bool has_rotation(const VoOutput& vo) {
 
 }  // namespace
 
+/// What speaks for a start of the filter and against it, until enough does.
+struct StartTrial {
+  int num_used = 0;    ///< images with a measured height since the start or a new unit
+  int num_missed = 0;  ///< images in which the road should have been seen
+  bool open = false;   ///< the start can still turn out to be wrong
+
+  void take(bool used) { (used ? num_used : num_missed) += 1; }
+};
+
 struct GroundEstimator::Impl {
   Impl(const GroundConfig& config_in, const CameraModel& camera, const GroundModel& model)
       : config(config_in),
@@ -43,16 +60,21 @@ struct GroundEstimator::Impl {
         points_cue(config.filter, *covariance),
         objects_cue(*covariance),
         filter(covariance->road_bend(), config.filter),
-        ego(config.ego) {}
+        drift(config.filter),
+        ego(config.ego),
+        unit_watch(config.ego) {}
 
   CueFrame take(const GroundInput& input);
   void take_height(const CameraHeight& height);
+  void watch_unit(const VoOutput& vo, CueFrame* frame);
+  void follow_drift(const VoOutput& vo, bool measured);
   FramePrior predict(const CueFrame& frame);
   void expect_plane(const CueFrame& frame, FramePrior* prior);
   Observations measure(const CueFrame& frame, FramePrior* prior, StageProbe& probe);
   void fuse(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void fuse_height(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void report(const CueFrame& frame, const FramePrior& prior, const Observations& observations);
+  void try_start(bool used, bool rejected);
   void diagnose(const CueFrame& frame, const FramePrior& prior);
   [[nodiscard]] HeightMeasurement height_seen(const Observations& observations) const;
   [[nodiscard]] RoadShape road_shape(const Chord& chord) const;
@@ -69,8 +91,11 @@ struct GroundEstimator::Impl {
   std::array<Cue*, kNumCues> cues{&dense_cue, &points_cue, &objects_cue};  ///< as in kCueTable
   PlaneFilter filter;
   ResidualStatistics residuals;
+  ScaleDrift drift;
   EgoMotion ego;
+  UnitWatch unit_watch;
   std::int32_t scale_epoch = 0;
+  StartTrial trial;
   GroundOutput out;
   CueDiagnostics diagnostics;
 };
@@ -96,6 +121,7 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   const Eigen::Vector3d normal =
       m.filter.started() ? m.filter.normal() : Eigen::Vector3d(Eigen::Vector3d::UnitY());
   const bool measured = any_height(observations, CueStatus::kUsed);
+  m.follow_drift(*frame.vo, measured);
   m.ego.update(*frame.vo, m.scale(prior, measured), normal, &m.out.ego);
   probe.mark("ego");
   return m.out;
@@ -110,6 +136,7 @@ CueFrame GroundEstimator::Impl::take(const GroundInput& input) {
   frame.objects = input.objects;
   if (has_rotation(vo)) frame.chord = measure_chord(vo);
   if (input.camera_height.height_m > 0.0) take_height(input.camera_height);
+  watch_unit(vo, &frame);
   row_clock.take(vo.seq, vo.capture_us);
   if (ring.fits(input.image)) {
     const bool stands = vo.status == VoStatus::kStandstill;
@@ -117,6 +144,34 @@ CueFrame GroundEstimator::Impl::take(const GroundInput& input) {
         stands ? &ring.replace_newest(vo.seq, input.image) : &ring.push(vo.seq, input.image);
   }
   return frame;
+}
+
+/// Applies what is known of VO's unit in this image. While VO's steps mean nothing, no cue measures
+/// anything by them.
+void GroundEstimator::Impl::watch_unit(const VoOutput& vo, CueFrame* frame) {
+  if (vo.scale_epoch != scale_epoch) {
+    scale_epoch = vo.scale_epoch;
+    if (filter.started()) filter.change_unit(vo.scale_carry_std);
+    drift.change_unit();
+    trial = {};
+  }
+  const double metres_per_vo = filter.started() ? camera_height.height_m / filter.height() : 0.0;
+  const UnitVerdict verdict = unit_watch.watch(vo, metres_per_vo);
+  if (verdict == UnitVerdict::kSteady) return;
+  frame->chord.valid = false;
+  if (verdict == UnitVerdict::kJump) drift.change_unit();
+  filter.reset();
+}
+
+/// While the car stands, VO holds its position, and its unit does not drift.
+void GroundEstimator::Impl::follow_drift(const VoOutput& vo, bool measured) {
+  const double dt_s = vo.interval_s;
+  if (!filter.started() || !(dt_s > 0.0)) return;
+  if (measured) {
+    drift.measured(filter.state()(2), filter.cov()(2, 2), dt_s);
+  } else if (vo.status == VoStatus::kOk || vo.status == VoStatus::kCoasting) {
+    filter.add_height_var(drift.held(dt_s));
+  }
 }
 
 /// The scale stays when the body rises or sinks: the height in VO's unit changes with the metric
@@ -130,10 +185,6 @@ void GroundEstimator::Impl::take_height(const CameraHeight& height) {
 
 FramePrior GroundEstimator::Impl::predict(const CueFrame& frame) {
   const VoOutput& vo = *frame.vo;
-  if (vo.scale_epoch != scale_epoch) {
-    scale_epoch = vo.scale_epoch;
-    if (filter.started()) filter.change_unit(vo.scale_carry_std);
-  }
   FramePrior prior;
   if (!has_rotation(vo)) return prior;
   if (filter.started()) {
@@ -198,6 +249,7 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   if (starts) {
     start_filter(*observations, &filter);
     residuals.reset();
+    trial = {0, 0, true};
   }
   if (!filter.started()) return;
   filter.fuse(filter.level_roll());
@@ -210,12 +262,22 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   filter.fuse(path);
   fuse_cues(true, &filter, observations);
   const bool rejected = any_height(*observations, CueStatus::kGated);
+  const bool used = any_height(*observations, CueStatus::kUsed);
   // Cues that contradict each other did not start on the road, but on a truck's back or a mirror.
   if (starts && rejected) filter.reset();
-  filter.end_frame(any_height(*observations, CueStatus::kUsed), rejected);
+  try_start(used, rejected);
+  filter.end_frame(used, rejected);
   const bool dense_used = (*observations)[kCueDense].report.status == CueStatus::kUsed;
   residuals.add({prior.context, frame.chord.direction, dense_used ? &dense_cue.last() : nullptr},
                 filter.ahead());
+}
+
+/// A start that the next images do not confirm was none.
+void GroundEstimator::Impl::try_start(bool used, bool rejected) {
+  trial.take(used);
+  if (!trial.open) return;
+  trial.open = trial.num_used < kStartProven;
+  if (trial.open && ((rejected && !used) || trial.num_missed >= kStartFailed)) filter.reset();
 }
 
 void GroundEstimator::Impl::report(const CueFrame& frame, const FramePrior& prior,
@@ -269,7 +331,11 @@ ScaleEstimate GroundEstimator::Impl::scale(const FramePrior& prior, bool measure
   const double constant_var = bias_std * bias_std + camera_height.var_ratio();
   scale.measured_now = measured;
   scale.log_scale = std::log(camera_height.height_m) - filter.state()(2);
-  scale.var = filter.cov()(2, 2) + constant_var;
+  // A single height may be wrong by more than its own image can tell.
+  const double doubt = config.filter.start_doubt_std / std::max(1, trial.num_used);
+  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt;
+  const bool confirmed = !trial.open || trial.num_used >= config.filter.start_confirmations;
+  scale.known = confirmed && scale.var <= square(config.ego.most_log_scale_std);
   if (prior.ln_height_var > 0.0) {
     scale.kept_ratio = std::clamp(scale.var / (prior.ln_height_var + constant_var), 0.0, 1.0);
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/fixed_vector.hpp"
 #include "modules/ground/types/plane_state.hpp"
 
 namespace plumb {
@@ -14,22 +15,36 @@ namespace {
 // 10 images/s from 1.3 to 60 m/s.
 constexpr std::array<double, 6> kSearchSteps{0.12, 0.26, 0.5, 0.95, 1.7, 3.0};
 
-/// The result on which most others agree; null when no two agree.
-const DenseMeasurement* most_agreed(const std::array<DenseMeasurement, kSearchSteps.size()>& found,
-                                    double agree_ln_height) {
-  const DenseMeasurement* best = nullptr;
-  int most = 1;
-  for (const DenseMeasurement& one : found) {
-    if (!one.ok) continue;
-    const auto agrees = [&](const DenseMeasurement& other) {
-      return other.ok && std::abs(std::log(other.q.norm() / one.q.norm())) < agree_ln_height;
-    };
-    const auto num = static_cast<int>(std::count_if(found.begin(), found.end(), agrees));
-    if (num <= most) continue;
-    most = num;
-    best = &one;
+// Points with a known depth count as below a plane when they lie this many heights under the
+// camera.
+constexpr float kKnownDepthStd = 0.1F;
+constexpr double kFarBelow = 1.4;
+constexpr int kLeastBelow = 8;
+constexpr double kMostBelow = 0.3;
+
+constexpr std::size_t kMostResults = kSearchSteps.size() + 1;
+using Results = FixedVector<DenseMeasurement, kMostResults>;
+
+/// Share of what moved in the images that the plane leaves unexplained: 0 for a perfect one, 1 for
+/// one that explains no more than standing still does.
+double misfit(const DenseMeasurement& dense) {
+  return (1.0 - dense.ncc) / std::max(1e-6, 1.0 - dense.still_ncc);
+}
+
+/// Nothing lies under the road: whether a good share of VO's points says that this plane is none.
+bool is_above_points(const DenseMeasurement& dense, const VoOutput& vo) {
+  int num_points = 0;
+  int num_below = 0;
+  for (const RoadPoint& point : vo.road_points) {
+    if (point.rel_std > kKnownDepthStd) continue;
+    ++num_points;
+    if (dense.q.dot(point.p_cam.cast<double>()) > kFarBelow) ++num_below;
   }
-  return best;
+  return num_below >= kLeastBelow && num_below > kMostBelow * num_points;
+}
+
+double ln_height_between(const DenseMeasurement& a, const DenseMeasurement& b) {
+  return std::abs(std::log(a.q.norm() / b.q.norm()));
 }
 
 }  // namespace
@@ -43,21 +58,29 @@ DenseCue::DenseCue(const FilterConfig& config, const CueCovariance& covariance,
       alignment_(images.camera(), images.num_levels()) {}
 
 Observation DenseCue::measure(const CueFrame& frame, const FramePrior& prior) {
-  FramePrior next = prior;
+  if (!prior.converged) return start(frame, prior);
   const Attempt attempt = prior.measurable ? align(frame, prior) : Attempt{};
   last_ = attempt.dense;
-  const double least = prior.converged ? config_.least_dense_quality : config_.start_dense_quality;
-  const bool good = last_.ok && covariance_.dense_quality(last_) >= least;
-  if (prior.converged || good) {
-    if (good && !prior.converged) next.height = 1.0 / last_.q.norm();
-    const CueStatus failed = attempt.looked ? CueStatus::kFailed : CueStatus::kAbsent;
-    return observed(prior, next, good ? CueStatus::kUsed : failed);
-  }
-  const DenseMeasurement found = search(frame, prior);
-  if (!found.ok)
+  const bool good = last_.ok && covariance_.dense_quality(last_) >= config_.least_dense_quality;
+  const CueStatus failed = attempt.looked ? CueStatus::kFailed : CueStatus::kAbsent;
+  return observed(prior, prior, good ? CueStatus::kUsed : failed);
+}
+
+/// Before the filter has converged, the road is looked for at all heights. When several explain the
+/// images about as well, no cue may start the filter: the road's texture repeats itself, or runs
+/// along the motion.
+Observation DenseCue::start(const CueFrame& frame, const FramePrior& prior) {
+  FramePrior next = prior;
+  const Attempt attempt = prior.measurable ? align(frame, prior) : Attempt{};
+  const Found found = search(frame, prior, attempt.dense);
+  last_ = found.best.ok ? found.best : attempt.dense;
+  if (!found.sure) {
+    if (found.contradicted) next.measurable = false;
     return observed(prior, next, attempt.looked ? CueStatus::kFailed : CueStatus::kAbsent);
-  last_ = found;
-  next.height = 1.0 / found.q.norm();
+  }
+  next.height = 1.0 / last_.q.norm();
+  if (prior.measurable && last_.q == attempt.dense.q)
+    return observed(prior, next, CueStatus::kUsed);
   next.context = {std::abs(frame.chord.curvature) * next.height, frame.chord.step / next.height};
   next.measurable = true;
   return observed(next, next, CueStatus::kUsed);
@@ -74,19 +97,42 @@ DenseCue::Attempt DenseCue::align(const CueFrame& frame, const FramePrior& prior
   return {true, alignment_.measure(*frame.image, pairs, request)};
 }
 
-/// Aligns at several heights and takes the result on which at least two agree.
-DenseMeasurement DenseCue::search(const CueFrame& frame, const FramePrior& prior) {
+/// Aligns at several heights. The best result is the one that leaves the least misfit, or
+/// `expected`, the result at the prior's height, when it agrees with that one.
+DenseCue::Found DenseCue::search(const CueFrame& frame, const FramePrior& prior,
+                                 const DenseMeasurement& expected) {
   if (frame.vo->status != VoStatus::kOk || !frame.chord.valid || frame.image == nullptr) return {};
-  std::array<DenseMeasurement, kSearchSteps.size()> found;
-  for (std::size_t i = 0; i < kSearchSteps.size(); ++i) {
+  Results results;
+  const auto add = [&](const DenseMeasurement& dense) {
+    if (covariance_.dense_quality(dense) < config_.least_dense_quality) return;
+    if (!is_above_points(dense, *frame.vo)) (void)results.push_back(dense);
+  };
+  add(expected);
+  const bool has_expected = !results.empty();
+  for (const double step_ratio : kSearchSteps) {
     FramePrior at = prior;
-    at.height = frame.chord.step / kSearchSteps[i];
+    at.height = frame.chord.step / step_ratio;
     if (frame.chord.length <= config_.shortest_chord_ratio * at.height) continue;
-    const DenseMeasurement dense = align(frame, at).dense;
-    if (covariance_.dense_quality(dense) >= config_.least_dense_quality) found[i] = dense;
+    add(align(frame, at).dense);
   }
-  const DenseMeasurement* best = most_agreed(found, config_.agree_ln_height);
-  return best != nullptr ? *best : DenseMeasurement{};
+  if (results.empty()) return {};
+  const auto* best =
+      std::min_element(results.begin(), results.end(),
+                       [](const auto& a, const auto& b) { return misfit(a) < misfit(b); });
+  const bool expects = has_expected && ln_height_between(expected, *best) < config_.agree_ln_height;
+  if (expects) best = results.begin();
+  int num_agreeing = 0;
+  bool alone = true;
+  for (const DenseMeasurement& other : results) {
+    const double apart = ln_height_between(other, *best);
+    if (apart < config_.agree_ln_height) ++num_agreeing;
+    if (apart < config_.distinct_ln_height) continue;
+    alone = alone && misfit(*best) <= config_.start_misfit_ratio * misfit(other);
+  }
+  // A height that nothing else suggests has to be found from two sides.
+  const bool good = num_agreeing > 1 ||
+                    (expects && covariance_.dense_quality(*best) >= config_.start_dense_quality);
+  return {*best, good && alone && misfit(*best) <= config_.start_misfit, !alone};
 }
 
 /// The observation of `last_`, whose covariance is that of a frame with `prior`.

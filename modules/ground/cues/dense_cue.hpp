@@ -36,7 +36,16 @@ class DenseCue final : public Cue {
   };
 
   [[nodiscard]] Attempt align(const CueFrame& frame, const FramePrior& prior);
-  [[nodiscard]] DenseMeasurement search(const CueFrame& frame, const FramePrior& prior);
+  /// What the heights tried at the start came to.
+  struct Found {
+    DenseMeasurement best;      ///< not ok when there is none
+    bool sure = false;          ///< good enough, and not contradicted
+    bool contradicted = false;  ///< another height explains the road about as well
+  };
+
+  [[nodiscard]] Observation start(const CueFrame& frame, const FramePrior& prior);
+  [[nodiscard]] Found search(const CueFrame& frame, const FramePrior& prior,
+                             const DenseMeasurement& expected);
   [[nodiscard]] Observation observed(const FramePrior& prior, const FramePrior& next,
                                      CueStatus status);
 

@@ -56,9 +56,9 @@ void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
     out->T_prev_cam = {vo.T_prev_cam.R, metres_per_vo * vo.T_prev_cam.t};
     out->cov_prev_cam = motion_cov(vo, metres_per_vo);
     integrate(vo, scale, *out);
-    const Eigen::Vector3d& t = out->T_prev_cam.t;
-    out->cov_prev_cam.topLeftCorner<3, 3>() += scale.var * t * t.transpose();
-    write_rates(vo, normal_cam, out);
+    // The first step after coasting corrects a predicted pose and has that one's error, too.
+    cov_coasted_ = vo.status == VoStatus::kCoasting ? out->cov_prev_cam : Matrix6d::Zero();
+    write_rates(vo, scale, normal_cam, out);
   } else {
     speed_.reset();
   }
@@ -87,7 +87,7 @@ Matrix6d EgoMotion::motion_cov(const VoOutput& vo, double metres_per_vo) const {
     cov.diagonal().head<3>().array() += step * step;
     cov.diagonal().tail<3>().array() += turn * turn;
   }
-  return cov;
+  return cov + cov_coasted_;
 }
 
 /// Updates T_anchor_cam, or finds that the path from the anchor is lost.
@@ -150,33 +150,52 @@ void EgoMotion::integrate(const VoOutput& vo, const ScaleEstimate& scale, const 
   T_anchor_cam_ = Se3{};
 }
 
-void EgoMotion::write_rates(const VoOutput& vo, const Eigen::Vector3d& normal_cam, EgoOutput* out) {
+/// Writes speeds and rates, and completes the covariance of the motion by the errors of scale and
+/// speed.
+void EgoMotion::write_rates(const VoOutput& vo, const ScaleEstimate& scale,
+                            const Eigen::Vector3d& normal_cam, EgoOutput* out) {
+  const Eigen::Vector3d& t = out->T_prev_cam.t;
+  const Eigen::Matrix3d scale_cov = scale.var * t * t.transpose();
   const double dt_s = vo.interval_s;
   if (!(dt_s > 0.0)) {
     speed_.reset();
+    out->cov_prev_cam.topLeftCorner<3, 3>() += scale_cov;
     return;
   }
   const Eigen::Matrix3d R_ground_cam = rotation_ground_cam(normal_cam);
   const Eigen::Matrix3d R_ground_prev = R_ground_cam * out->T_prev_cam.R.transpose();
-  out->velocity_ground_m_s = R_ground_prev * out->T_prev_cam.t / dt_s;
+  out->velocity_ground_m_s = R_ground_prev * t / dt_s;
   out->rate_ground_rad_s = R_ground_cam * log_so3(out->T_prev_cam.R) / dt_s;
 
   const Eigen::RowVector3d forward = R_ground_prev.row(0);
   const Eigen::RowVector3d up = R_ground_cam.row(2);
-  const auto step_cov = out->cov_prev_cam.topLeftCorner<3, 3>();
+  auto step_cov = out->cov_prev_cam.topLeftCorner<3, 3>();
   const auto turn_cov = out->cov_prev_cam.bottomRightCorner<3, 3>();
+  const double vo_var = forward * step_cov * forward.transpose();
+  const double factor =
+      scatter_factor(vo, out->velocity_ground_m_s.x(), vo_var / square(dt_s), dt_s);
+  out->cov_prev_cam.topRows<3>() *= std::sqrt(factor);
+  out->cov_prev_cam.leftCols<3>() *= std::sqrt(factor);
+  step_cov += scale_cov;
   const double step_var = forward * step_cov * forward.transpose();
   const double turn_var = up * turn_cov * up.transpose();
   out->speed_std_m_s = std::sqrt(step_var) / dt_s;
   out->yaw_rate_std_rad_s = std::sqrt(turn_var) / dt_s;
-  if (vo.status == VoStatus::kCoasting) return;
-
-  const double speed = out->velocity_ground_m_s.x();
-  const double scatter = config_.least_speed_std_m_s + config_.step_scatter_ratio * std::abs(speed);
-  speed_.update(speed, scatter * scatter, dt_s);
-  if (!speed_.observable()) return;
+  if (vo.status == VoStatus::kCoasting || !speed_.observable()) return;
   out->accel_forward_m_s2 = speed_.accel_m_s2();
   out->accel_forward_std_m_s2 = speed_.accel_std_m_s2();
+}
+
+/// Takes a speed and the variance that VO states. Returns the factor on that variance.
+double EgoMotion::scatter_factor(const VoOutput& vo, double speed_m_s, double speed_var,
+                                 double dt_s) {
+  if (vo.status == VoStatus::kCoasting) return 1.0;
+  const double scatter =
+      config_.least_speed_std_m_s + config_.step_scatter_ratio * std::abs(speed_m_s);
+  speed_.update(speed_m_s, scatter * scatter, dt_s);
+  const bool expected = !std::isnan(speed_.innovation_m_s());
+  if (vo.status != VoStatus::kOk || !expected || !(speed_var > 0.0)) return 1.0;
+  return scatter_.factor(speed_.innovation_m_s(), speed_.expected_var(), speed_var, dt_s);
 }
 
 }  // namespace plumb

@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "modules/ground/ego/speed_filter.hpp"
+#include "modules/ground/ego/step_scatter.hpp"
 #include "modules/ground/types/ground_types.hpp"
 
 namespace plumb {
@@ -31,7 +32,8 @@ struct ScaleEstimate {
 
 class EgoMotion {
  public:
-  explicit EgoMotion(const EgoConfig& config = {}) : config_(config), speed_(config) {}
+  explicit EgoMotion(const EgoConfig& config = {})
+      : config_(config), speed_(config), scatter_(config) {}
 
   /// Writes the motion of this frame. `normal_cam` gives the ground axes.
   void update(const VoOutput& vo, const ScaleEstimate& scale, const Eigen::Vector3d& normal_cam,
@@ -41,7 +43,10 @@ class EgoMotion {
   [[nodiscard]] Matrix6d motion_cov(const VoOutput& vo, double metres_per_vo) const;
   void follow_anchor(const VoOutput& vo, bool moved);
   void integrate(const VoOutput& vo, const ScaleEstimate& scale, const EgoOutput& out);
-  void write_rates(const VoOutput& vo, const Eigen::Vector3d& normal_cam, EgoOutput* out);
+  void write_rates(const VoOutput& vo, const ScaleEstimate& scale,
+                   const Eigen::Vector3d& normal_cam, EgoOutput* out);
+  [[nodiscard]] double scatter_factor(const VoOutput& vo, double speed_m_s, double speed_var,
+                                      double dt_s);
 
   EgoConfig config_;
   std::int64_t last_seq_ = -1;
@@ -59,7 +64,9 @@ class EgoMotion {
   double distance_m_ = 0.0;
   std::int32_t reset_counter_ = 0;
   int num_coasted_ = 0;
+  Matrix6d cov_coasted_ = Matrix6d::Zero();  ///< of the pose before, while that was predicted
   SpeedFilter speed_;
+  StepScatter scatter_;
 };
 
 }  // namespace plumb

@@ -68,6 +68,8 @@ class PlaneFilter {
   /// VO began a new unit. `ln_ratio_std` is the 1-sigma of ln(old unit / new unit); NaN when
   /// nothing is known of it, which resets the filter.
   void change_unit(double ln_ratio_std);
+  /// The drift of VO's unit while no cue sees the road adds this variance.
+  void add_height_var(double var) { P_(2, 2) += var; }
   /// The camera's height over the road changed by this factor, at the same scale.
   void change_height(double ln_ratio);
 

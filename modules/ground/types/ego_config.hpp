@@ -14,6 +14,10 @@ struct EgoConfig {
   double least_speed_std_m_s = 0.02;
   double jerk_density_m2_s5 = 4.0;
   double start_accel_std_m_s2 = 3.0;
+  double most_accel_m_s2 = 6.0;
+  double most_brake_m_s2 = 11.0;
+  double most_log_scale_std = 0.35;
+  double scatter_memory_s = 2.0;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
@@ -33,6 +37,13 @@ struct EgoConfig {
           "spectral density of the car's jerk: how fast the acceleration may change");
     field("ground.ego.start_accel_std_m_s2", c.start_accel_std_m_s2, 0.01, 100.0,
           "1-sigma of the acceleration before two speeds are known");
+    field("ground.ego.most_accel_m_s2", c.most_accel_m_s2, 1.0, 100.0,
+          "acceleration of the vehicle beyond which a speed is taken for a loss of VO's unit");
+    field("ground.ego.most_brake_m_s2", c.most_brake_m_s2, 1.0, 100.0, "the same for braking");
+    field("ground.ego.most_log_scale_std", c.most_log_scale_std, 0.01, 2.0,
+          "1-sigma of ln scale above which the scale counts as not known");
+    field("ground.ego.scatter_memory_s", c.scatter_memory_s, 0.1, 60.0,
+          "time over which the scatter of the speeds is averaged, for their standard deviation");
   }
 };
 

@@ -15,6 +15,7 @@ struct FilterConfig {
   double curvature_noise_rad = 0.08 * kDegree;
   double scale_drift_std = 0.004;
   double turn_scale_drift_std = 0.01;
+  double held_drift_per_s = 0.005;
   double reference_step_ratio = 0.6;
   double largest_noise_steps = 2.0;
   double bend_strength_ratio = 15.0;
@@ -42,6 +43,11 @@ struct FilterConfig {
   double settled_sweep_ln = 0.2;
   double wide_sweep_ln = 0.45;
   double agree_ln_height = 0.03;
+  double distinct_ln_height = 0.1;
+  double start_misfit_ratio = 0.55;
+  double start_misfit = 0.6;
+  int start_confirmations = 2;
+  double start_doubt_std = 0.05;
 
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field);
@@ -57,6 +63,9 @@ void visit_process_noise(Config& c, Visit&& field) {
         "process noise of ln height per root of a reference step: drift of VO's scale");
   field("ground.filter.turn_scale_drift_std", c.turn_scale_drift_std, 0.0, 0.5,
         "the same per root of a radian turned");
+  field("ground.filter.held_drift_per_s", c.held_drift_per_s, 0.0, 1.0,
+        "1-sigma of the drift of VO's scale per second while no cue sees the road, until the drive "
+        "shows its own");
   field("ground.filter.reference_step_ratio", c.reference_step_ratio, 0.01, 10.0,
         "length of the reference step in camera heights");
   field("ground.filter.largest_noise_steps", c.largest_noise_steps, 0.1, 100.0,
@@ -110,6 +119,20 @@ void visit_start(Config& c, Visit&& field) {
   field(
       "ground.filter.agree_ln_height", c.agree_ln_height, 0.001, 0.5,
       "largest difference of ln height between two results that agree in the search of the start");
+  field("ground.filter.distinct_ln_height", c.distinct_ln_height, 0.01, 1.0,
+        "difference of ln height above which two results of that search contradict each other");
+  field("ground.filter.start_misfit_ratio", c.start_misfit_ratio, 0.01, 1.0,
+        "the filter starts when the best height leaves at most this share of the misfit that the "
+        "best contradicting one leaves");
+  field("ground.filter.start_misfit", c.start_misfit, 0.01, 1.0,
+        "and at most this share of what moved in the images");
+  field(
+      "ground.filter.start_confirmations", c.start_confirmations, 1, 100,
+      "images with a measured height after a start, itself among them, before the scale is known");
+  field(
+      "ground.filter.start_doubt_std", c.start_doubt_std, 0.0, 1.0,
+      "1-sigma of ln scale on top of the filter's, divided by the number of images with a measured "
+      "height since a start or a new unit");
 }
 
 template <typename Config, typename Visit>

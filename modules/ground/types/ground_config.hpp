@@ -14,7 +14,7 @@ struct GroundConfig {
   std::string model_file;
   int detections_delay_images = 1;
   double camera_height_m = 1.65;
-  double camera_height_std_m = 0.0;
+  double camera_height_std_m = 0.01;
   double road_near_m = 5.5;
   double road_far_m = 20.0;
   double road_half_width_m = 1.65;

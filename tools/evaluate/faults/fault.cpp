@@ -8,14 +8,7 @@ namespace {
 
 constexpr std::int64_t kHour_us = 3'600'000'000;
 
-FaultRun sound(const FaultDrive& drive) {
-  FaultRun run{drive.camera, {}};
-  for (const RecordedImage& image : drive.images) {
-    run.shots.push_back(
-        {image.capture_us, image.seq, image.pixels, image.capture_us, image.speed_m_s, false});
-  }
-  return run;
-}
+FaultRun sound(const FaultDrive& drive) { return sound_run(drive); }
 
 /// Where faults begin: two fifths into the drive, when the estimators run.
 std::size_t middle(const FaultRun& run) { return run.shots.size() * 2 / 5; }
@@ -33,9 +26,7 @@ FaultRun changed(FaultRun run, std::size_t from, std::size_t count, Change chang
 }
 
 Pixels edited(const Pixels& from, const std::function<void(std::vector<std::uint8_t>*)>& edit) {
-  auto pixels = std::make_shared<std::vector<std::uint8_t>>(*from);
-  edit(pixels.get());
-  return pixels;
+  return edited_picture(from, edit);
 }
 
 /// Sensor noise of `std_grey` on top of a picture, so that a repeated one is not equal to the bit.
@@ -160,22 +151,22 @@ Fault gap(const std::string& name, std::size_t count, const std::string& words) 
 
 /// Every n-th image at the old rate: a car that drives n times as fast.
 Fault faster_car(std::size_t n) {
-  return {
-      "fast_x" + std::to_string(n), 'I',
-      "every " + std::to_string(n) + ". image at the same rate: a car that many times as fast",
-      [n](const FaultDrive& drive) {
-        FaultRun run{drive.camera, {}};
-        const std::int64_t start_us = drive.images.front().capture_us;
-        std::int64_t seq = 0;
-        for (std::size_t i = 0; i < drive.images.size(); i += n, ++seq) {
-          const std::int64_t at_us = start_us + 100'000 * seq;
-          // A car that is so fast brakes harder, too: the speed of this very step is the truth.
-          const double step_m =
-              i < n ? 0.0 : drive.images[i].position_m - drive.images[i - n].position_m;
-          run.shots.push_back({at_us, seq, drive.images[i].pixels, at_us, 10.0 * step_m, false});
-        }
-        return run;
-      }};
+  return {"fast_x" + std::to_string(n), 'I',
+          "every " + std::to_string(n) + ". image at the same rate: a car that many times as fast",
+          [n](const FaultDrive& drive) {
+            FaultRun run{drive.camera, {}};
+            const std::int64_t start_us = drive.images.front().capture_us;
+            std::int64_t seq = 0;
+            for (std::size_t i = 0; i < drive.images.size(); i += n, ++seq) {
+              const std::int64_t at_us = start_us + 100'000 * seq;
+              // A car that is so fast brakes harder, too: the speed of this very step is the truth.
+              const double step_m =
+                  i < n ? 0.0 : drive.images[i].position_m - drive.images[i - n].position_m;
+              run.shots.push_back({at_us, seq, drive.images[i].pixels, at_us, 10.0 * step_m, false,
+                                   drive.images[i].position_m});
+            }
+            return run;
+          }};
 }
 
 // --- pictures ----------------------------------------------------------------------------------
@@ -242,7 +233,7 @@ Fault each_picture_n_times(std::size_t n) {
                 const std::int64_t at_us =
                     image.capture_us + step_us * static_cast<std::int64_t>(k);
                 run.shots.push_back({at_us, seq, noisy(image.pixels, 0.5, i * n + k), at_us,
-                                     image.speed_m_s, k > 0});
+                                     image.speed_m_s, k > 0, image.position_m});
               }
             }
             return run;
@@ -350,6 +341,22 @@ std::vector<Fault> make_all() {
 }
 
 }  // namespace
+
+FaultRun sound_run(const FaultDrive& drive) {
+  FaultRun run{drive.camera, {}};
+  for (const RecordedImage& image : drive.images) {
+    run.shots.push_back({image.capture_us, image.seq, image.pixels, image.capture_us,
+                         image.speed_m_s, false, image.position_m});
+  }
+  return run;
+}
+
+Pixels edited_picture(const Pixels& from,
+                      const std::function<void(std::vector<std::uint8_t>*)>& edit) {
+  auto pixels = std::make_shared<std::vector<std::uint8_t>>(*from);
+  edit(pixels.get());
+  return pixels;
+}
 
 const std::vector<Fault>& all_faults() {
   static const std::vector<Fault> faults = make_all();

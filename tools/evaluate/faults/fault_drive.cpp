@@ -1,5 +1,7 @@
 #include "tools/evaluate/faults/fault_drive.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -16,8 +18,28 @@
 namespace plumb {
 namespace {
 
-// The true speed is averaged over this many images to either side: positions by GPS jitter.
-constexpr std::size_t kSpeedReach = 4;
+// Positions by satellites jitter by centimetres, and some jump by decimetres for one image. A cubic
+// over this many images to either side smooths them, blind to what lies far from it.
+constexpr std::size_t kSmoothingReach = 10;
+constexpr double kJitter_m = 0.03;
+constexpr int kSmoothingIterations = 6;
+
+/// The value at x = 0 of the cubic through (x, y), by least squares with Cauchy weights.
+double smooth_value(const std::vector<double>& x, const std::vector<double>& y) {
+  Eigen::Vector4d c = Eigen::Vector4d::Zero();
+  for (int iteration = 0; iteration < kSmoothingIterations; ++iteration) {
+    Eigen::Matrix4d H = 1e-9 * Eigen::Matrix4d::Identity();
+    Eigen::Vector4d b = Eigen::Vector4d::Zero();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Eigen::Vector4d a(1.0, x[i], x[i] * x[i], x[i] * x[i] * x[i]);
+      const double e = iteration == 0 ? 0.0 : (y[i] - a.dot(c)) / kJitter_m;
+      H += a * a.transpose() / (1.0 + e * e);
+      b += a * y[i] / (1.0 + e * e);
+    }
+    c = H.ldlt().solve(b);
+  }
+  return c(0);
+}
 
 Pixels packed(const ImageView& view) {
   auto pixels = std::make_shared<std::vector<std::uint8_t>>();
@@ -42,6 +64,7 @@ class DriveReader {
     if (!camera_) throw InputError(log + " holds no CAMERA_CALIBRATION");
     if (images_.empty()) throw InputError(log + " holds no image on CAMERA");
     set_positions(log);
+    smooth_positions();
     set_speeds();
     return {std::filesystem::path(log).stem().string(), *camera_, std::move(images_)};
   }
@@ -82,13 +105,27 @@ class DriveReader {
     }
   }
 
-  void set_speeds() {
+  void smooth_positions() {
+    std::vector<double> smooth(images_.size());
     for (std::size_t i = 0; i < images_.size(); ++i) {
-      const RecordedImage& from = images_[i < kSpeedReach ? 0 : i - kSpeedReach];
-      const RecordedImage& to = images_[std::min(i + kSpeedReach, images_.size() - 1)];
-      const auto passed_us = static_cast<double>(to.capture_us - from.capture_us);
-      images_[i].speed_m_s = 1e6 * (to.position_m - from.position_m) / passed_us;
+      std::vector<double> x, y;
+      const std::size_t from = i < kSmoothingReach ? 0 : i - kSmoothingReach;
+      for (std::size_t k = from; k < std::min(images_.size(), i + kSmoothingReach + 1); ++k) {
+        x.push_back(1e-6 * static_cast<double>(images_[k].capture_us - images_[i].capture_us));
+        y.push_back(images_[k].position_m - images_[i].position_m);
+      }
+      smooth[i] = images_[i].position_m + smooth_value(x, y);
     }
+    for (std::size_t i = 0; i < images_.size(); ++i) images_[i].position_m = smooth[i];
+  }
+
+  void set_speeds() {
+    for (std::size_t i = 1; i < images_.size(); ++i) {
+      const RecordedImage& last = images_[i - 1];
+      const auto passed_us = static_cast<double>(images_[i].capture_us - last.capture_us);
+      images_[i].speed_m_s = 1e6 * (images_[i].position_m - last.position_m) / passed_us;
+    }
+    if (images_.size() > 1) images_[0].speed_m_s = images_[1].speed_m_s;
   }
 
   std::optional<CameraModel> camera_;

@@ -20,8 +20,8 @@ struct RecordedImage {
   std::int64_t capture_us = 0;
   std::int64_t seq = 0;
   Pixels pixels;
-  double speed_m_s = 0.0;   ///< true speed, averaged over a few neighbours
-  double position_m = 0.0;  ///< true distance travelled since the first image
+  double speed_m_s = 0.0;   ///< true mean speed since the image before
+  double position_m = 0.0;  ///< true distance travelled since the first image, smoothed
 };
 
 struct FaultDrive {

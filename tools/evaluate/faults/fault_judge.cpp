@@ -7,7 +7,6 @@
 
 #include "core/channels.hpp"
 #include "modules/camera/image_wire.hpp"
-#include "modules/chain/chain.hpp"
 #include "modules/datasets/text.hpp"
 #include "tools/run/replay/names.hpp"
 
@@ -95,16 +94,9 @@ double FaultResult::wrong_ratio() const {
   return num_valid > 0 ? static_cast<double>(num_wrong) / static_cast<double>(num_valid) : 0.0;
 }
 
-FaultResult run_fault(const FaultRun& run, const PlumbConfig& config) {
-  std::vector<Verdict> verdicts;
-  std::string last_reason;
+void run_chain(const FaultRun& run, const PlumbConfig& config, const ShotSink& sink) {
   const Shot* shot = nullptr;
-  Chain chain(config, 1, nullptr, [&](const FrameRecord& record) {
-    if (record.refused != nullptr) last_reason = record.refused;
-    if (record.ego == nullptr) return;
-    verdicts.push_back(judge(*shot, *record.ego));
-    if (!verdicts.back().valid) last_reason = vo_reason_name(record.ego->reason);
-  });
+  Chain chain(config, 1, nullptr, [&](const FrameRecord& record) { sink(*shot, record); });
   std::int64_t count = 0;
   for (const Shot& next : run.shots) {
     shot = &next;
@@ -121,7 +113,18 @@ FaultResult run_fault(const FaultRun& run, const PlumbConfig& config) {
     chain.take({0, next.true_us, kCamera.name, bytes});
   }
   chain.finish();
-  return summarise(verdicts, count, std::move(last_reason));
+}
+
+FaultResult run_fault(const FaultRun& run, const PlumbConfig& config) {
+  std::vector<Verdict> verdicts;
+  std::string last_reason;
+  run_chain(run, config, [&](const Shot& shot, const FrameRecord& record) {
+    if (record.refused != nullptr) last_reason = record.refused;
+    if (record.ego == nullptr) return;
+    verdicts.push_back(judge(shot, *record.ego));
+    if (!verdicts.back().valid) last_reason = vo_reason_name(record.ego->reason);
+  });
+  return summarise(verdicts, static_cast<std::int64_t>(run.shots.size()), std::move(last_reason));
 }
 
 std::string fault_table_head() {

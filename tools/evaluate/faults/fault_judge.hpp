@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
+#include "modules/chain/chain.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "tools/evaluate/faults/fault.hpp"
 
@@ -27,6 +29,10 @@ struct FaultResult {
 
   [[nodiscard]] double wrong_ratio() const;
 };
+
+/// Runs the images through the chain. `sink` gets each with what the chain made of it.
+using ShotSink = std::function<void(const Shot&, const FrameRecord&)>;
+void run_chain(const FaultRun& run, const PlumbConfig& config, const ShotSink& sink);
 
 [[nodiscard]] FaultResult run_fault(const FaultRun& run, const PlumbConfig& config);
 

@@ -1,0 +1,64 @@
+#include "modules/ground/ego/unit_watch.hpp"
+
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+constexpr double kSecondsPerMicro = 1e-6;
+// A jump exceeds the scatter of VO's steps by far, as a share of the speed.
+constexpr double kLeastJumpRatio = 0.12;
+constexpr double kNumStd = 2.0;
+constexpr int kSteadySteps = 3;
+
+}  // namespace
+
+UnitVerdict UnitWatch::watch(const VoOutput& vo, double metres_per_vo) {
+  const double dt_s = vo.interval_s;
+  if (metres_per_vo > 0.0) metres_per_vo_ = metres_per_vo;
+  if (vo.scale_carry_std > 0.0) sound_.std_vo_s += vo.scale_carry_std * sound_.vo_s;
+  if (std::isnan(vo.scale_carry_std)) sound_.known = false;
+  const bool measured = vo.status == VoStatus::kOk && dt_s > 0.0;
+  if (!measured || !(metres_per_vo_ > 0.0)) {
+    last_.known = false;
+    return unsettled_ ? UnitVerdict::kUnsettled : UnitVerdict::kSteady;
+  }
+  const Eigen::Vector3d& t = vo.T_prev_cam.t;
+  const Eigen::Vector3d along = t.norm() > 0.0 ? t.normalized() : Eigen::Vector3d::UnitZ();
+  const double var = along.dot(vo.cov_prev_cam.topLeftCorner<3, 3>() * along);
+  const Speed now{true, vo.capture_us, t.norm() / dt_s, std::sqrt(var) / dt_s};
+  if (unsettled_) return settle(now);
+  last_ = now;
+  if (sound_.known && !follows(sound_, now, kNumStd)) {
+    sound_.known = false;
+    unsettled_ = true;
+    num_steady_ = 0;
+    return UnitVerdict::kJump;
+  }
+  // A speed that is hardly known would let anything follow it.
+  if (now.std_vo_s < kLeastJumpRatio * now.vo_s || !sound_.known) sound_ = now;
+  return UnitVerdict::kSteady;
+}
+
+UnitVerdict UnitWatch::settle(const Speed& now) {
+  num_steady_ = last_.known && follows(last_, now, 0.0) ? num_steady_ + 1 : 0;
+  last_ = now;
+  if (num_steady_ < kSteadySteps) return UnitVerdict::kUnsettled;
+  unsettled_ = false;
+  sound_ = now;
+  return UnitVerdict::kSteady;
+}
+
+/// Whether a vehicle may have changed its speed from `before` to `now`, give or take `num_std`
+/// standard deviations.
+bool UnitWatch::follows(const Speed& before, const Speed& now, double num_std) const {
+  const double passed_s =
+      kSecondsPerMicro * static_cast<double>(now.capture_us - before.capture_us);
+  const double change = now.vo_s - before.vo_s;
+  const double most_m_s2 = change > 0.0 ? config_.most_accel_m_s2 : config_.most_brake_m_s2;
+  const double scatter = num_std * std::hypot(before.std_vo_s, now.std_vo_s);
+  return std::abs(change) <= most_m_s2 * passed_s / metres_per_vo_ + scatter ||
+         std::abs(change) <= kLeastJumpRatio * before.vo_s;
+}
+
+}  // namespace plumb
