@@ -65,9 +65,9 @@ std::vector<FrameTrust> judge_trust(const FaultRun& run, std::size_t speed_up,
     if (record.ego != nullptr && record.vo != nullptr) {
       const ego_motion_t& ego = *record.ego;
       frame.status = ego.status;
-      frame.valid = ego.status != ego_motion_t::STATUS_INITIALIZING &&
-                    ego.status != ego_motion_t::STATUS_LOST;
       frame.speed_m_s = ego.velocity_ground_m_s[0];
+      frame.valid = ego.status != ego_motion_t::STATUS_INITIALIZING &&
+                    ego.status != ego_motion_t::STATUS_LOST && !std::isnan(frame.speed_m_s);
       frame.speed_std_m_s = ego.speed_std_m_s;
       frame.log_scale = ego.log_scale;
       frame.log_scale_std = ego.log_scale_std;
