@@ -1,11 +1,11 @@
-/// Lets one sender of a channel through: the one that is heard, until it falls silent.
+/// Lets one sender of a channel through: the newest that is heard.
 ///
 /// Session:
-///   Each run of a process has one, which its messages carry.
+///   Each run of a process has one, which its messages carry: the time at which it began.
 /// Restart:
-///   A process that begins anew has another session. It is taken when the earlier one has been
-///   silent for `silent_us`, and at the latest after kMaxRefused messages in a row, so that a
-///   restart costs little and two senders at the same time never mix.
+///   A process that begins anew has a newer session and is taken at once. An older session is taken
+///   when the one that is followed has been silent for `silent_us`, and at the latest after
+///   kMaxRefused messages in a row, so that two senders at the same time never mix.
 /// Memory:
 ///   A few numbers.
 #pragma once

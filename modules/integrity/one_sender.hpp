@@ -1,8 +1,10 @@
 /// Follows one of several senders on a channel, by the session in their messages.
 ///
-/// A message of another session than the one that is followed is refused, until `num_in_row` of
-/// them have come without one of the followed session in between: then the sender was restarted,
-/// and the new session is followed. Two senders that publish at the same time never take turns.
+/// A session is the time at which its sender began, so that the larger one is the newer. It is
+/// followed at once: the sender was restarted, or what was followed is a recording that is being
+/// played. A message of an older session is refused, until `num_in_row` of them have come without
+/// one of the followed session in between: then the clock was set back. Two senders that publish at
+/// the same time never take turns.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +25,15 @@ class OneSender {
   void forget() { is_started_ = false; }
 
   Verdict take(std::int64_t session) {
-    if (!is_started_ || session == session_) {
-      const bool is_first = !is_started_;
+    if (!is_started_ || session > session_) {
       is_started_ = true;
       session_ = session;
       num_foreign_ = 0;
-      return is_first ? Verdict::kNew : Verdict::kSame;
+      return Verdict::kNew;
+    }
+    if (session == session_) {
+      num_foreign_ = 0;
+      return Verdict::kSame;
     }
     num_foreign_ = session == candidate_ ? num_foreign_ + 1 : 1;
     candidate_ = session;

@@ -9,34 +9,43 @@ namespace {
 
 using Verdict = OneSender::Verdict;
 
-TEST(OneSender, FollowsTheFirstAndIgnoresAnotherThatInterleaves) {
+TEST(OneSender, FollowsTheNewestAndIgnoresAnOlderOneThatInterleaves) {
   OneSender sender;
   EXPECT_EQ(sender.take(5), Verdict::kNew);
+  EXPECT_EQ(sender.take(9), Verdict::kNew);
   for (int i = 0; i < 20; ++i) {
-    EXPECT_EQ(sender.take(9), Verdict::kForeign);
-    EXPECT_EQ(sender.take(9), Verdict::kForeign);
-    EXPECT_EQ(sender.take(5), Verdict::kSame);
+    EXPECT_EQ(sender.take(5), Verdict::kForeign);
+    EXPECT_EQ(sender.take(5), Verdict::kForeign);
+    EXPECT_EQ(sender.take(9), Verdict::kSame);
   }
 }
 
-TEST(OneSender, FollowsANewOneWhenTheOldOneIsSilent) {
+TEST(OneSender, FollowsAnOlderOneWhenTheNewestIsSilent) {
   OneSender sender;
-  EXPECT_EQ(sender.take(5), Verdict::kNew);
-  EXPECT_EQ(sender.take(9), Verdict::kForeign);
-  EXPECT_EQ(sender.take(7), Verdict::kForeign);
-  EXPECT_EQ(sender.take(9), Verdict::kForeign);
-  EXPECT_EQ(sender.take(9), Verdict::kForeign);
   EXPECT_EQ(sender.take(9), Verdict::kNew);
-  EXPECT_EQ(sender.take(9), Verdict::kSame);
+  EXPECT_EQ(sender.take(5), Verdict::kForeign);
+  EXPECT_EQ(sender.take(7), Verdict::kForeign);
+  EXPECT_EQ(sender.take(5), Verdict::kForeign);
+  EXPECT_EQ(sender.take(5), Verdict::kForeign);
+  EXPECT_EQ(sender.take(5), Verdict::kNew);
+  EXPECT_EQ(sender.take(5), Verdict::kSame);
+}
+
+TEST(OneSender, FollowsASenderThatStatesItsSessionRatherThanOneThatDoesNot) {
+  OneSender sender;
+  EXPECT_EQ(sender.take(0), Verdict::kNew);
+  EXPECT_EQ(sender.take(7), Verdict::kNew);
+  EXPECT_EQ(sender.take(0), Verdict::kForeign);
+  EXPECT_EQ(sender.take(7), Verdict::kSame);
 }
 
 TEST(OneSender, FollowsWhoeverIsHeardNextAfterItForgot) {
   OneSender sender(7);
-  EXPECT_EQ(sender.take(5), Verdict::kNew);
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(sender.take(9), Verdict::kForeign) << i;
-  EXPECT_EQ(sender.take(5), Verdict::kSame);
-  sender.forget();
   EXPECT_EQ(sender.take(9), Verdict::kNew);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(sender.take(5), Verdict::kForeign) << i;
+  EXPECT_EQ(sender.take(9), Verdict::kSame);
+  sender.forget();
+  EXPECT_EQ(sender.take(5), Verdict::kNew);
 }
 
 TEST(SteadyNumbers, NeverGoBack) {
