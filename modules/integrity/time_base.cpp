@@ -109,6 +109,13 @@ bool TimeBase::plausible(const Step& step) const {
          per_image <= config_.max_interval_s * kSecondsToUs;
 }
 
+/// What of an interval may be jitter of its two stamps instead of time that has passed: all by
+/// which it differs from the usual one, as long as jitter is that large.
+double TimeBase::jitter_us(const Step& step) const {
+  const double off = std::abs(step.us - interval_us_ * static_cast<double>(step.num));
+  return std::min(off, config_.jitter_s * kSecondsToUs);
+}
+
 double TimeBase::tolerance_us(const Step& step) const {
   const double jitter = std::max(config_.jitter_s * kSecondsToUs, kSpreadFactor * spread_us_);
   const double drift = kDriftShare * interval_us_ * static_cast<double>(step.num - 1);
@@ -210,6 +217,7 @@ TimeVerdict TimeBase::accept(const TimeStampedImage& image) {
   const Step step = step_between(last_, image);
   TimeVerdict verdict;
   verdict.interval_s = step.us / kSecondsToUs;
+  verdict.interval_std_s = jitter_us(step) / kSecondsToUs;
   verdict.reference_seq = last_.seq;
   verdict.num_lost = std::max<std::int64_t>(0, step.num - 1 - num_unaccepted_);
   verdict.reason = verdict.num_lost > 0 ? TimeReason::kGap : TimeReason::kNone;
@@ -312,10 +320,12 @@ TimeVerdict TimeBase::adopt(const Chain& chain) {
   TimeVerdict verdict;
   verdict.reason = TimeReason::kNone;
   verdict.is_new_base = true;
-  verdict.interval_s = step_between(chain.previous, chain.last).us / kSecondsToUs;
+  const Step newest = step_between(chain.previous, chain.last);
+  verdict.interval_s = newest.us / kSecondsToUs;
   verdict.reference_seq = chain.previous.seq;
   verdict.reset_count = reset_count_;
   interval_us_ = all.us / static_cast<double>(all.num);
+  verdict.interval_std_s = jitter_us(newest) / kSecondsToUs;
   spread_us_ = 0.0;
   last_ = chain.last;
   has_base_ = true;

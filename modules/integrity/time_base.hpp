@@ -67,6 +67,7 @@ struct TimeStampedImage {
 struct TimeVerdict {
   TimeReason reason = TimeReason::kStarting;
   double interval_s = kNan;         ///< from image `reference_seq`; valid images only
+  double interval_std_s = kNan;     ///< of interval_s, by the jitter of the stamps
   std::int64_t reference_seq = -1;  ///< -1: none
   std::int64_t num_lost = 0;        ///< images that are missing between the two; kGap only
   bool is_new_base = false;         ///< this image completes a new base
@@ -121,6 +122,7 @@ class TimeBase {
 
   [[nodiscard]] static Step step_between(const TimeStampedImage& from, const TimeStampedImage& to);
   [[nodiscard]] bool plausible(const Step& step) const;
+  [[nodiscard]] double jitter_us(const Step& step) const;
   [[nodiscard]] double tolerance_us(const Step& step) const;
   [[nodiscard]] bool agrees_with_base(const TimeStampedImage& image) const;
   [[nodiscard]] bool was_received(const TimeStampedImage& image) const;

@@ -80,6 +80,7 @@ const char* ImageJudge::judge_time(const ImageFrame& frame, std::int64_t arrival
   }
   const bool vouched = previous_.seq >= 0 && verdict.reference_seq == previous_.seq;
   interval_s_ = vouched ? verdict.interval_s : kNan;
+  interval_std_s_ = vouched ? verdict.interval_std_s : kNan;
   guessed_interval_s_ = guess_interval_s();
   capture_mono_us_ = 0;
   if (verdict.is_valid()) {
@@ -130,6 +131,7 @@ void ImageJudge::complete(vo_motion_t* motion) const {
   motion->capture_mono_us = capture_mono_us_;
   motion->prev_seq = previous_.seq;
   motion->interval_s = interval_s_;
+  motion->interval_std_s = interval_std_s_;
   const bool is_doubted = previous_.seq >= 0 && !(interval_s_ > 0.0);
   if (is_doubted && motion->reason == vo_motion_t::REASON_NONE) {
     motion->reason = static_cast<std::int8_t>(reason_of(verdict_.reason));

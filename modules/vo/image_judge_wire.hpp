@@ -62,6 +62,7 @@ class ImageJudge {
   bool is_discontinuous_ = false;  ///< nothing connects `image_` with `handed_on_`
   std::int64_t capture_mono_us_ = 0;
   double interval_s_ = kNan;       ///< from `previous_` to `image_`; NaN while in doubt
+  double interval_std_s_ = kNan;   ///< of interval_s_, by the jitter of the stamps
   double guessed_interval_s_ = 0;  ///< the best guess of the same, always > 0
   std::int64_t num_lost_ = 0;
 };

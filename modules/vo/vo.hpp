@@ -118,6 +118,7 @@ struct VoOutput {
 
   std::int64_t prev_seq = -1;                ///< of the previous image; -1 for the first one
   double interval_s = kNan;                  ///< from it to this image; NaN while in doubt
+  double interval_std_s = 0.0;               ///< of the interval, by the jitter of the stamps
   Se3 T_prev_cam;                            ///< [vo] from cam now to cam of the previous image
   Matrix6d cov_prev_cam = Matrix6d::Zero();  ///< of (t, right perturbation of R)
 

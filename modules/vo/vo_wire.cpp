@@ -137,6 +137,7 @@ void to_wire(const VoOutput& output, vo_motion_t* message) {
   message->scale_carry_std = output.scale_carry_std;
   message->prev_seq = output.prev_seq;
   message->interval_s = output.interval_s;
+  message->interval_std_s = output.interval_std_s;
   to_wire(output.T_prev_cam, message->q_prev_cam, message->t_prev_cam);
   to_wire(output.cov_prev_cam, message->cov_prev_cam);
   window_to_wire(output, message);
@@ -160,6 +161,8 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
     return "VO motion: the standard deviation of the scale is negative or infinite";
   if (!std::isnan(message.interval_s) && !(message.interval_s > 0.0))
     return "VO motion: the interval between the images is not positive";
+  if (!std::isnan(message.interval_s) && !(message.interval_std_s >= 0.0))
+    return "VO motion: the standard deviation of the interval is negative or not a number";
   output->capture_us = message.utime;
   output->seq = message.seq;
   output->session = message.session;
@@ -170,6 +173,7 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
   output->scale_carry_std = message.scale_carry_std;
   output->prev_seq = message.prev_seq;
   output->interval_s = message.interval_s;
+  output->interval_std_s = message.interval_std_s;
   if (from_wire(message.q_prev_cam, message.t_prev_cam, &output->T_prev_cam) != nullptr)
     return "VO motion: the relative pose is not a pose";
   if (from_wire(message.cov_prev_cam, &output->cov_prev_cam) != nullptr)

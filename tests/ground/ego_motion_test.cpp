@@ -135,6 +135,18 @@ TEST(EgoMotion, StandingStillChangesNothing) {
   EXPECT_EQ(rig.out.velocity_ground_m_s.norm(), 0.0);
 }
 
+TEST(EgoMotion, JitterOfTheStampsWidensTheSpeedAndNotTheMotion) {
+  Rig sure(test::Drive{}, 20), jittery(test::Drive{}, 20);
+  for (int k = 0; k < 20; ++k) {
+    sure.step(k);
+    jittery.step(k, [](VoOutput* vo) { vo->interval_std_s = 0.04 * vo->interval_s; });
+  }
+  const double added_m_s = 0.04 * jittery.out.velocity_ground_m_s.x();
+  EXPECT_NEAR(jittery.out.speed_std_m_s, std::hypot(sure.out.speed_std_m_s, added_m_s),
+              0.1 * added_m_s);
+  EXPECT_GT(jittery.out.accel_forward_std_m_s2, sure.out.accel_forward_std_m_s2);
+}
+
 TEST(EgoMotion, CoastsWithAGrowingDeviation) {
   Rig rig(test::Drive{}, 20);
   for (int k = 0; k < 12; ++k) rig.step(k);

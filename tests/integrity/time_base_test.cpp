@@ -47,6 +47,16 @@ TEST(TimeBase, IsValidWithTheThirdImage) {
   EXPECT_EQ(verdicts.back().reset_count, 0);
 }
 
+TEST(TimeBase, SaysHowFarJitterMayHaveMovedAnInterval) {
+  Stream stream = regular(40, 0.1);
+  stream[20].stamp_us += 3000;
+  const auto verdicts = judge_all(stream);
+  EXPECT_NEAR(verdicts[19].interval_std_s, 0.0, 1e-6);
+  EXPECT_NEAR(verdicts[20].interval_std_s, 0.003, 1e-6);
+  EXPECT_NEAR(verdicts[21].interval_std_s, 0.003, 5e-4);
+  EXPECT_LT(verdicts[22].interval_std_s, 5e-4);
+}
+
 TEST(TimeBase, PassesJitterAtEveryRate) {
   for (const double hz : {5.0, 10.0, 25.0, 30.0, 60.0, 120.0}) {
     Stream stream = regular(400, 1.0 / hz);

@@ -28,6 +28,7 @@ inline VoOutput sample_vo_output() {
   o.scale_carry_std = 0.05;
   o.prev_seq = 41;
   o.interval_s = 0.104;
+  o.interval_std_s = 0.0015;
   o.session = 17;
   o.capture_mono_us = 987'654'321;
   o.T_prev_cam = sample_pose(1.0);

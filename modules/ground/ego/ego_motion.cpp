@@ -47,7 +47,6 @@ void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
     out->log_scale_std = std::sqrt(scale.var);
   }
 
-  num_coasted_ = vo.status == VoStatus::kCoasting ? num_coasted_ + 1 : 0;
   const bool moved = turns(vo.status) && vo.prev_seq >= 0;
   const bool metric = moved && (scale.known || !needs_scale(vo.status));
   follow_anchor(vo, moved);
@@ -55,9 +54,8 @@ void EgoMotion::update(const VoOutput& vo, const ScaleEstimate& scale,
     const double metres_per_vo = scale.known ? std::exp(scale.log_scale) : 0.0;
     out->T_prev_cam = {vo.T_prev_cam.R, metres_per_vo * vo.T_prev_cam.t};
     out->cov_prev_cam = motion_cov(vo, metres_per_vo);
+    add_coasting(vo, out->T_prev_cam.t.norm(), &out->cov_prev_cam);
     integrate(vo, scale, *out);
-    // The first step after coasting corrects a predicted pose and has that one's error, too.
-    cov_coasted_ = vo.status == VoStatus::kCoasting ? out->cov_prev_cam : Matrix6d::Zero();
     write_rates(vo, scale, normal_cam, out);
   } else {
     speed_.reset();
@@ -79,15 +77,26 @@ Matrix6d EgoMotion::motion_cov(const VoOutput& vo, double metres_per_vo) const {
     cov.diagonal().head<3>().setConstant(square(config_.standstill_step_std_m));
     cov.diagonal().tail<3>().setConstant(square(config_.standstill_turn_std_rad));
   }
-  if (vo.status == VoStatus::kCoasting) {
-    // A predicted motion: the driver may brake or steer meanwhile.
-    const double step =
-        num_coasted_ * config_.coast_step_ratio * metres_per_vo * vo.T_prev_cam.t.norm();
-    const double turn = num_coasted_ * config_.coast_turn_std_rad;
-    cov.diagonal().head<3>().array() += step * step;
-    cov.diagonal().tail<3>().array() += turn * turn;
+  return cov;
+}
+
+/// Adds what the driver may have done while the motion was predicted. The first measured step after
+/// that corrects a predicted pose, and so has the error of all predicted steps.
+void EgoMotion::add_coasting(const VoOutput& vo, double step_m, Matrix6d* cov) {
+  if (vo.status != VoStatus::kCoasting) {
+    *cov += cov_coasted_;
+    cov_coasted_.setZero();
+    num_coasted_ = 0;
+    return;
   }
-  return cov + cov_coasted_;
+  ++num_coasted_;
+  const double step = num_coasted_ * config_.coast_step_ratio * step_m;
+  const double turn = num_coasted_ * config_.coast_turn_std_rad;
+  Matrix6d added = Matrix6d::Zero();
+  added.diagonal().head<3>().setConstant(step * step);
+  added.diagonal().tail<3>().setConstant(turn * turn);
+  *cov += added;
+  cov_coasted_ += added;
 }
 
 /// Updates T_anchor_cam, or finds that the path from the anchor is lost.
@@ -172,13 +181,16 @@ void EgoMotion::write_rates(const VoOutput& vo, const ScaleEstimate& scale,
   auto step_cov = out->cov_prev_cam.topLeftCorner<3, 3>();
   const auto turn_cov = out->cov_prev_cam.bottomRightCorner<3, 3>();
   const double vo_var = forward * step_cov * forward.transpose();
-  const double factor =
-      scatter_factor(vo, out->velocity_ground_m_s.x(), vo_var / square(dt_s), dt_s);
+  const double factor = scatter_factor(vo, out->velocity_ground_m_s.x(), vo_var / square(dt_s));
   out->cov_prev_cam.topRows<3>() *= std::sqrt(factor);
   out->cov_prev_cam.leftCols<3>() *= std::sqrt(factor);
   step_cov += scale_cov;
-  const double step_var = forward * step_cov * forward.transpose();
-  const double turn_var = up * turn_cov * up.transpose();
+  // A wrong interval changes speed and rates, not the motion itself.
+  const double dt_var_ratio = square(vo.interval_std_s / dt_s);
+  const double step_var =
+      forward * step_cov * forward.transpose() + dt_var_ratio * square(forward * t);
+  const double turn = dt_s * out->rate_ground_rad_s.z();
+  const double turn_var = up * turn_cov * up.transpose() + dt_var_ratio * square(turn);
   out->speed_std_m_s = std::sqrt(step_var) / dt_s;
   out->yaw_rate_std_rad_s = std::sqrt(turn_var) / dt_s;
   if (vo.status == VoStatus::kCoasting || !speed_.observable()) return;
@@ -187,15 +199,17 @@ void EgoMotion::write_rates(const VoOutput& vo, const ScaleEstimate& scale,
 }
 
 /// Takes a speed and the variance that VO states. Returns the factor on that variance.
-double EgoMotion::scatter_factor(const VoOutput& vo, double speed_m_s, double speed_var,
-                                 double dt_s) {
+double EgoMotion::scatter_factor(const VoOutput& vo, double speed_m_s, double speed_var) {
   if (vo.status == VoStatus::kCoasting) return 1.0;
+  const double dt_s = vo.interval_s;
+  const double jitter_var = square(speed_m_s * vo.interval_std_s / dt_s);
   const double scatter =
       config_.least_speed_std_m_s + config_.step_scatter_ratio * std::abs(speed_m_s);
-  speed_.update(speed_m_s, scatter * scatter, dt_s);
+  speed_.update(speed_m_s, scatter * scatter + jitter_var, dt_s);
   const bool expected = !std::isnan(speed_.innovation_m_s());
   if (vo.status != VoStatus::kOk || !expected || !(speed_var > 0.0)) return 1.0;
-  return scatter_.factor(speed_.innovation_m_s(), speed_.expected_var(), speed_var, dt_s);
+  return scatter_.factor(speed_.innovation_m_s(), speed_.expected_var() + jitter_var, speed_var,
+                         dt_s);
 }
 
 }  // namespace plumb

@@ -41,12 +41,12 @@ class EgoMotion {
 
  private:
   [[nodiscard]] Matrix6d motion_cov(const VoOutput& vo, double metres_per_vo) const;
+  void add_coasting(const VoOutput& vo, double step_m, Matrix6d* cov);
   void follow_anchor(const VoOutput& vo, bool moved);
   void integrate(const VoOutput& vo, const ScaleEstimate& scale, const EgoOutput& out);
   void write_rates(const VoOutput& vo, const ScaleEstimate& scale,
                    const Eigen::Vector3d& normal_cam, EgoOutput* out);
-  [[nodiscard]] double scatter_factor(const VoOutput& vo, double speed_m_s, double speed_var,
-                                      double dt_s);
+  [[nodiscard]] double scatter_factor(const VoOutput& vo, double speed_m_s, double speed_var);
 
   EgoConfig config_;
   std::int64_t last_seq_ = -1;
@@ -64,7 +64,7 @@ class EgoMotion {
   double distance_m_ = 0.0;
   std::int32_t reset_counter_ = 0;
   int num_coasted_ = 0;
-  Matrix6d cov_coasted_ = Matrix6d::Zero();  ///< of the pose before, while that was predicted
+  Matrix6d cov_coasted_ = Matrix6d::Zero();  ///< what the predicted steps added
   SpeedFilter speed_;
   StepScatter scatter_;
 };
