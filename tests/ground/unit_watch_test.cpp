@@ -21,6 +21,14 @@ struct Watch {
     vo.scale_carry_std = carry_std;
     return watch.watch(vo, kWatchedScale);
   }
+  UnitVerdict see_nothing() {
+    VoOutput vo;
+    vo.status = VoStatus::kCoasting;
+    capture_us += 100'000;
+    vo.capture_us = capture_us;
+    vo.interval_s = 0.1;
+    return watch.watch(vo, kWatchedScale);
+  }
   UnitWatch watch;
   std::int64_t seq = 0;
   std::int64_t capture_us = 1'000'000;
@@ -48,6 +56,18 @@ TEST(UnitWatch, AJumpLosesTheUnitUntilTheSpeedsAreSteady) {
   EXPECT_EQ(rig.see(18.1), UnitVerdict::kUnsettled);
   EXPECT_EQ(rig.see(18.2), UnitVerdict::kUnsettled);
   EXPECT_EQ(rig.see(18.1), UnitVerdict::kSteady);
+}
+
+TEST(UnitWatch, SettlesThoughEveryOtherImageMeasuresNothing) {
+  Watch rig;
+  for (int k = 0; k < 5; ++k) rig.see(10.0);
+  EXPECT_EQ(rig.see(30.0), UnitVerdict::kJump);
+  UnitVerdict verdict = UnitVerdict::kUnsettled;
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(rig.see_nothing(), UnitVerdict::kUnsettled);
+    verdict = rig.see(18.0);
+  }
+  EXPECT_EQ(verdict, UnitVerdict::kSteady);
 }
 
 TEST(UnitWatch, AWideDeviationIsNoJump) {

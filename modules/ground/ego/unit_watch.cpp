@@ -5,11 +5,12 @@
 namespace plumb {
 namespace {
 
-constexpr double kSecondsPerMicro = 1e-6;
 // A jump exceeds the scatter of VO's steps by far, as a share of the speed.
 constexpr double kLeastJumpRatio = 0.12;
 constexpr double kNumStd = 2.0;
 constexpr int kSteadySteps = 3;
+// After a longer time, any speed could follow from any other.
+constexpr double kLongestSettlingStepS = 0.5;
 
 }  // namespace
 
@@ -20,7 +21,6 @@ UnitVerdict UnitWatch::watch(const VoOutput& vo, double metres_per_vo) {
   if (std::isnan(vo.scale_carry_std)) sound_.known = false;
   const bool measured = vo.status == VoStatus::kOk && dt_s > 0.0;
   if (!measured || !(metres_per_vo_ > 0.0)) {
-    last_.known = false;
     return unsettled_ ? UnitVerdict::kUnsettled : UnitVerdict::kSteady;
   }
   const Eigen::Vector3d& t = vo.T_prev_cam.t;
@@ -40,8 +40,13 @@ UnitVerdict UnitWatch::watch(const VoOutput& vo, double metres_per_vo) {
   return UnitVerdict::kSteady;
 }
 
+double UnitWatch::seconds_between(const Speed& before, const Speed& now) {
+  return 1e-6 * static_cast<double>(now.capture_us - before.capture_us);
+}
+
 UnitVerdict UnitWatch::settle(const Speed& now) {
-  num_steady_ = last_.known && follows(last_, now, 0.0) ? num_steady_ + 1 : 0;
+  const bool recent = last_.known && seconds_between(last_, now) < kLongestSettlingStepS;
+  num_steady_ = recent && follows(last_, now, 0.0) ? num_steady_ + 1 : 0;
   last_ = now;
   if (num_steady_ < kSteadySteps) return UnitVerdict::kUnsettled;
   unsettled_ = false;
@@ -52,8 +57,7 @@ UnitVerdict UnitWatch::settle(const Speed& now) {
 /// Whether a vehicle may have changed its speed from `before` to `now`, give or take `num_std`
 /// standard deviations.
 bool UnitWatch::follows(const Speed& before, const Speed& now, double num_std) const {
-  const double passed_s =
-      kSecondsPerMicro * static_cast<double>(now.capture_us - before.capture_us);
+  const double passed_s = seconds_between(before, now);
   const double change = now.vo_s - before.vo_s;
   const double most_m_s2 = change > 0.0 ? config_.most_accel_m_s2 : config_.most_brake_m_s2;
   const double scatter = num_std * std::hypot(before.std_vo_s, now.std_vo_s);

@@ -42,13 +42,14 @@ class UnitWatch {
     double std_vo_s = 0.0;
   };
 
+  [[nodiscard]] static double seconds_between(const Speed& before, const Speed& now);
   [[nodiscard]] bool follows(const Speed& before, const Speed& now, double num_std) const;
   UnitVerdict settle(const Speed& now);
 
   EgoConfig config_;
   double metres_per_vo_ = 0.0;  ///< last known, also while the unit is lost: its order of magnitude
   Speed sound_;                 ///< newest speed that followed from those before
-  Speed last_;                  ///< of the image before
+  Speed last_;                  ///< newest speed
   bool unsettled_ = false;
   int num_steady_ = 0;
 };
