@@ -20,6 +20,8 @@ constexpr double kMinStartParallaxPx = 2.0;
 constexpr double kMinStartInlierRatio = 0.5;
 constexpr double kStandstillFlowPx = 0.35;
 constexpr double kStandstillPercentile = 0.7;
+// So many still images in a row prove that the camera stands. Fewer may show one picture repeatedly.
+constexpr int kProvenStill = 5;
 constexpr int kTriangulationIterations = 15;
 constexpr int kStartIterations = 30;
 // Model of the speed while nothing is measured.
@@ -95,9 +97,22 @@ void Initializer::update(const FrameTime& time, LocalMap& map, MotionPredictor& 
   const int num_found = out->num_tracked;
   const bool enough = num_found >= std::max(1.0 * kMinTracks, kMinSurvivors * num_at_reference_);
   if (enough && detect_standstill(time, map)) {
-    out->status = VoStatus::kStandstill;
+    ++num_still_;
+    still_s_ += time.dt_s;
+    out->status = is_still_proven() ? VoStatus::kStandstill : VoStatus::kInitializing;
+    if (!is_still_proven()) out->reason = VoReason::kLowParallax;
     return;
   }
+  track_motion(time, T_predicted, map, motion, out, probe);
+  num_still_ = 0;
+  still_s_ = 0.0;
+}
+
+/// Adds the newest image, which has moved, and tries to solve the two views.
+void Initializer::track_motion(const FrameTime& time, const Se3& T_predicted, LocalMap& map,
+                               MotionPredictor& motion, VoOutput* out, StageProbe& probe) {
+  const int num_found = out->num_tracked;
+  const bool enough = num_found >= std::max(1.0 * kMinTracks, kMinSurvivors * num_at_reference_);
   // Without a predicted motion, the first search misses near points. Later numbers of tracks are
   // therefore compared with what it found.
   const bool first = map.window.order().size() == 1;
@@ -165,6 +180,8 @@ void Initializer::report_unsolved(const FrameTime& time, VoReason reason, Motion
   out->cov_prev_cam = predicted.cov;
 }
 
+bool Initializer::is_still_proven() const { return num_still_ >= kProvenStill; }
+
 /// Returns whether the camera has not moved since the last frame, and adds the newest image to the
 /// history if so.
 bool Initializer::detect_standstill(const FrameTime& time, LocalMap& map) {
@@ -222,6 +239,13 @@ bool Initializer::try_two_views(const FrameTime& time, double min_flow_px, Local
                     : kNan;
   }
   const Se3 T_now_world = window[window.newest()].T_cam_world;
+  // A car that stood has moved a little only by the next image: the still ones were repeated.
+  FrameTime since_placed = time;
+  if (!is_still_proven()) since_placed.unplaced_s += still_s_;
+  if (since_placed.unplaced_s > 0.0) {
+    const Se3 T_placed_world = window[window.order()[window.order().size() - 2]].T_cam_world;
+    out->cov_prev_cam += map.place_previous(T_placed_world, since_placed);
+  }
   if (window.num_history() > 1) {
     motion.observe(previous_pose(map) * T_now_world.inverse(), time.dt_s);
   }

@@ -67,6 +67,9 @@ class Initializer {
                      VoOutput* out);
   void track_reference(const FrameTime& time, const Se3& T_predicted, LocalMap& map,
                        const MotionPredictor& motion, VoOutput* out);
+  void track_motion(const FrameTime& time, const Se3& T_predicted, LocalMap& map,
+                    MotionPredictor& motion, VoOutput* out, StageProbe& probe);
+  [[nodiscard]] bool is_still_proven() const;
   [[nodiscard]] bool detect_standstill(const FrameTime& time, LocalMap& map);
   [[nodiscard]] bool try_two_views(const FrameTime& time, double min_flow_px, LocalMap& map,
                                    MotionPredictor& motion, VoOutput* out);
@@ -85,6 +88,8 @@ class Initializer {
   double predicted_distance_ = 0.0;  // from the reference to the newest image, [vo]
   bool restarting_ = false;          // tracking has failed, and the unit of length is lost
   bool speed_known_ = false;         // the speed was known when tracking failed
+  int num_still_ = 0;                // still images in a row before the newest one
+  double still_s_ = 0.0;             // time that they took
   std::vector<RayPair> pairs_;
   std::vector<double> scratch_;
 };

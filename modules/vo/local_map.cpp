@@ -1,6 +1,7 @@
 #include "modules/vo/local_map.hpp"
 
 #include "modules/vo/inverse_depth.hpp"
+#include "modules/vo/motion_predictor.hpp"
 
 namespace plumb::vo {
 namespace {
@@ -40,6 +41,15 @@ void LocalMap::keep_image(const Se3& T_cam_world) {
 
 Se3 LocalMap::last_image_pose() const {
   return T_last_image_newest_ * window[window.newest()].T_cam_world;
+}
+
+Matrix6d LocalMap::place_previous(const Se3& T_placed_world, const FrameTime& time) {
+  if (window.num_history() < 2) return Matrix6d::Zero();
+  const Se3 T_placed_now = T_placed_world * window[window.newest()].T_cam_world.inverse();
+  const double share = time.unplaced_s / (time.unplaced_s + time.dt_s);
+  const Se3 T_placed_previous{exp_so3(share * log_so3(T_placed_now.R)), share * T_placed_now.t};
+  window.move_previous(T_placed_previous.inverse() * T_placed_world);
+  return MotionPredictor::interpolation_cov(time.unplaced_s, time.dt_s);
 }
 
 int LocalMap::start_reference(std::int64_t seq, const Se3& T_cam_world, const Pyramid& image) {

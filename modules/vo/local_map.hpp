@@ -16,6 +16,7 @@
 #include "core/camera_model.hpp"
 #include "core/pyramid.hpp"
 #include "core/stage_probe.hpp"
+#include "modules/vo/frame_time.hpp"
 #include "modules/vo/keyframes.hpp"
 #include "modules/vo/pose.hpp"
 #include "modules/vo/refine.hpp"
@@ -64,6 +65,12 @@ class LocalMap {
   /// needed, and the window is refined if there is enough parallax. Without it, the frame becomes a
   /// keyframe with the given pose.
   Insertion insert(std::int64_t seq, const Se3& T_cam_world, bool refine, StageProbe& probe);
+
+  /// Puts the previous image, whose pose nothing predicted, on the way from T_cam_world of the last
+  /// image with a pose to the newest frame, in proportion to the times. Returns the covariance of
+  /// its place.
+  /// @pre the window is not empty, time.unplaced_s > 0
+  Matrix6d place_previous(const Se3& T_placed_world, const FrameTime& time);
 
   /// Fits the pose of the newest image to the active tracks.
   [[nodiscard]] PoseFit fit(const Se3& start, int max_iterations) const;

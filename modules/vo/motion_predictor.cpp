@@ -29,6 +29,16 @@ Se3 MotionPredictor::predict(double dt_s) const {
   return {exp_so3(rate_ * dt_s), velocity_ * dt_s};
 }
 
+/// A constant acceleration a leaves the straight line by a before after / 2.
+Matrix6d MotionPredictor::interpolation_cov(double before_s, double after_s) {
+  const double t_std = 0.5 * kAccelerationStd * before_s * after_s;
+  const double w_std = 0.5 * kTurnAccelerationStd * before_s * after_s;
+  Matrix6d cov = Matrix6d::Zero();
+  cov.diagonal().head<3>().setConstant(t_std * t_std);
+  cov.diagonal().tail<3>().setConstant(w_std * w_std);
+  return cov;
+}
+
 PredictedMotion MotionPredictor::extrapolate(double dt_s) {
   unseen_s_ += dt_s;
   PredictedMotion motion;

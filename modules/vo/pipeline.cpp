@@ -44,6 +44,9 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
   } else if (is_broken_off_) {
     is_broken_off_ = false;
     initializer_.begin_anew(time_, map_, &out_);
+  } else if (is_map_doubted_) {
+    is_map_doubted_ = false;
+    initializer_.restart(time_, map_, motion_, &out_, probe);
   } else if (!initializer_.has_reference()) {
     initializer_.begin(time_, map_, &out_);
   } else if (!initializer_.done()) {
@@ -69,7 +72,8 @@ bool Pipeline::accept(const VoInput& input) {
     return false;
   }
   const bool first = last_seq_ < 0;
-  time_ = {input.seq, last_seq_, first ? 0.0 : input.interval_s};
+  time_ = {input.seq, last_seq_, first ? 0.0 : input.interval_s, unplaced_s_};
+  unplaced_s_ = 0.0;
   if (!first && input.seq != last_seq_ + 1) out_.reason = VoReason::kFramesMissing;
   return true;
 }
@@ -80,6 +84,7 @@ void Pipeline::break_off() {
   zero_motion_.reset();
   coasted_cov_.setZero();
   is_broken_off_ = initializer_.has_reference();
+  is_map_doubted_ = false;
 }
 
 /// Handles an image that shows nothing. The motion is predicted and fades.
@@ -87,11 +92,16 @@ void Pipeline::coast(VoReason reason) {
   out_.reason = reason;
   out_.status = VoStatus::kLost;
   if (!initializer_.has_reference()) return;
+  // The torn region may lag behind from now on, and the map would bend between the two.
+  is_map_doubted_ |= reason == VoReason::kImageTorn;
   const PredictedMotion predicted = motion_.coast(time_.dt_s);
   initializer_.add_predicted_distance(motion_.measured_speed() * time_.dt_s);
   zero_motion_.reset();
   map_.window.remember(time_.seq, predicted.T_prev_cam.inverse() * map_.last_pose(), false);
-  if (!predicted.valid) return;
+  if (!predicted.valid) {
+    unplaced_s_ = time_.unplaced_s + time_.dt_s;
+    return;
+  }
   out_.status = VoStatus::kCoasting;
   out_.cov_prev_cam = predicted.cov;
   coasted_cov_ += predicted.cov;
@@ -177,6 +187,9 @@ void Pipeline::handle_motion(const PoseFit& pose, StageProbe& probe) {
   const bool follows = seen_before && window.num_history() > 1;
   const Se3 T_before_world = follows ? window.past_pose(window.history()[1]) : T_image_world;
   motion_.observe(T_before_world * T_now_world.inverse(), since_s);
+  if (time_.unplaced_s > 0.0) {
+    out_.cov_prev_cam += map_.place_previous(T_image_world, time_);
+  }
   map_.keep_image(T_now_world);
   out_.status = VoStatus::kOk;
 }

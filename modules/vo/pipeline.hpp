@@ -59,9 +59,11 @@ class Pipeline {
   Initializer initializer_;
 
   FrameTime time_;
-  std::int64_t last_seq_ = -1;  // number of the previous image; -1 before the first image
-  bool is_broken_off_ = false;  // the next usable image begins a new map
-  Se3 T_last_world_;            // its pose as it was published
+  std::int64_t last_seq_ = -1;   // number of the previous image; -1 before the first image
+  bool is_broken_off_ = false;   // the next usable image begins a new map
+  bool is_map_doubted_ = false;  // the same, and the motion so far carries on
+  Se3 T_last_world_;             // its pose as it was published
+  double unplaced_s_ = 0.0;      // since the last image with a pose, measured or predicted
   Matrix6d coasted_cov_ = Matrix6d::Zero();  // of that pose, if it was predicted
   std::vector<double> scratch_;
   VoOutput out_;

@@ -118,6 +118,11 @@ void Window::remember(std::int64_t seq, const Se3& T_cam_world, bool measured) {
   push_history({seq, slot, T_cam_world * (*this)[slot].T_cam_world.inverse(), measured});
 }
 
+void Window::move_previous(const Se3& T_cam_world) {
+  PastFrame& previous = history_[1];
+  previous.T_cam_slot = T_cam_world * (*this)[previous.slot].T_cam_world.inverse();
+}
+
 void Window::push_history(const PastFrame& past) {
   if (num_history_ < kHistory) ++num_history_;
   for (int i = num_history_ - 1; i > 0; --i) {

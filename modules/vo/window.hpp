@@ -88,6 +88,8 @@ class Window {
   }
   /// Adds a frame to the history that gets no slot. Its pose is kept relative to the newest frame.
   void remember(std::int64_t seq, const Se3& T_cam_world, bool measured);
+  /// Gives the frame before the newest one another pose. @pre num_history() > 1
+  void move_previous(const Se3& T_cam_world);
 
  private:
   void push_history(const PastFrame& past);

@@ -43,9 +43,12 @@ TEST(Initializer, WaitsWhileTheParallaxIsLow) {
 
 TEST(Initializer, ACameraThatStandsIsAtStandstill) {
   MapFixture fixture;
-  for (int i = 0; i < 4; ++i) fixture.initialize(Se3{});
+  for (int i = 0; i < 8; ++i) {
+    fixture.initialize(Se3{});
+    // One picture may have come several times.
+    EXPECT_EQ(fixture.out.status, i < 5 ? VoStatus::kInitializing : VoStatus::kStandstill) << i;
+  }
   EXPECT_FALSE(fixture.initializer.done());
-  EXPECT_EQ(fixture.out.status, VoStatus::kStandstill);
 }
 
 TEST(Initializer, ATurnOnTheSpotGivesNoDepth) {
