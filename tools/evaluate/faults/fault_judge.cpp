@@ -94,6 +94,18 @@ double FaultResult::wrong_ratio() const {
   return num_valid > 0 ? static_cast<double>(num_wrong) / static_cast<double>(num_valid) : 0.0;
 }
 
+void FaultResult::add(const FaultResult& other) {
+  num_images += other.num_images;
+  num_results += other.num_results;
+  num_valid += other.num_valid;
+  num_wrong += other.num_wrong;
+  worst_error_m_s = std::max(worst_error_m_s, other.worst_error_m_s);
+  detect_s = std::max(detect_s, other.detect_s);
+  const bool never = recover_s < 0.0 || other.recover_s < 0.0;
+  recover_s = never ? -1.0 : std::max(recover_s, other.recover_s);
+  if (!other.last_reason.empty()) last_reason = other.last_reason;
+}
+
 void run_chain(const FaultRun& run, const PlumbConfig& config, const ShotSink& sink) {
   const Shot* shot = nullptr;
   Chain chain(config, 1, nullptr, [&](const FrameRecord& record) { sink(*shot, record); });

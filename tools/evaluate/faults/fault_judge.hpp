@@ -28,6 +28,8 @@ struct FaultResult {
   std::string last_reason;  ///< what the chain said of the newest invalid result
 
   [[nodiscard]] double wrong_ratio() const;
+  /// Adds the result of another drive: sums the counts and keeps the larger errors and times.
+  void add(const FaultResult& other);
 };
 
 /// Runs the images through the chain. `sink` gets each with what the chain made of it.
