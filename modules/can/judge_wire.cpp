@@ -100,7 +100,8 @@ VehicleMotion MotionJudge::motion_of(const ego_motion_t& m) {
   motion.distance_m = known(is_valid, m.distance_m);
   motion.log_scale = known(is_valid, m.log_scale);
   motion.is_reset = interval_.is_new_session() || m.reset_counter != reset_counter_ ||
-                    m.reason == vo_motion_t::REASON_RESTARTED;
+                    m.reason == vo_motion_t::REASON_RESTARTED ||
+                    m.reason == vo_motion_t::REASON_ORIENTATION_UNPROVEN;
   return motion;
 }
 

@@ -151,7 +151,7 @@ const char* fault_of(const ground_plane_t& message) {
 }
 
 const char* fault_of(const mount_t& message) {
-  if (message.status < mount_t::STATUS_COLLECTING || message.status > mount_t::STATUS_MOVED) {
+  if (message.status < mount_t::STATUS_COLLECTING || message.status > mount_t::STATUS_MISALIGNED) {
     return "unknown status";
   }
   if (message.reason < 0 || message.reason > kMaxReason) return "unknown reason";

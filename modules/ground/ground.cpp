@@ -78,7 +78,8 @@ struct GroundEstimator::Impl {
   void diagnose(const CueFrame& frame, const FramePrior& prior);
   [[nodiscard]] HeightMeasurement height_seen(const Observations& observations) const;
   [[nodiscard]] RoadShape road_shape(const Chord& chord) const;
-  [[nodiscard]] ScaleEstimate scale(const FramePrior& prior, bool measured) const;
+  [[nodiscard]] ScaleEstimate scale(const VoOutput& vo, const FramePrior& prior,
+                                    bool measured) const;
 
   GroundConfig config;
   CameraHeight camera_height;
@@ -122,7 +123,7 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
       m.filter.started() ? m.filter.normal() : Eigen::Vector3d(Eigen::Vector3d::UnitY());
   const bool measured = any_height(observations, CueStatus::kUsed);
   m.follow_drift(*frame.vo, measured);
-  m.ego.update(*frame.vo, m.scale(prior, measured), normal, &m.out.ego);
+  m.ego.update(*frame.vo, m.scale(*frame.vo, prior, measured), normal, &m.out.ego);
   probe.mark("ego");
   return m.out;
 }
@@ -323,9 +324,11 @@ void GroundEstimator::Impl::diagnose(const CueFrame& frame, const FramePrior& pr
   diagnostics.ln_scale_bias_var = covariance->ln_scale_bias_std() * covariance->ln_scale_bias_std();
 }
 
-ScaleEstimate GroundEstimator::Impl::scale(const FramePrior& prior, bool measured) const {
+/// A height that was found in a picture that may be upside down is not known yet.
+ScaleEstimate GroundEstimator::Impl::scale(const VoOutput& vo, const FramePrior& prior,
+                                           bool measured) const {
   ScaleEstimate scale;
-  scale.known = filter.started();
+  scale.known = filter.started() && vo.reason != VoReason::kOrientationUnproven;
   if (!scale.known) return scale;
   const double bias_std = covariance->ln_scale_bias_std();
   const double constant_var = bias_std * bias_std + camera_height.var_ratio();

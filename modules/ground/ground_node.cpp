@@ -162,6 +162,9 @@ const char* GroundNode::process(const ImageFrame* frame) {
 
 void GroundNode::publish(const GroundOutput& output) {
   to_wire(output, &plane_);
+  // Upside down, the plane that was found is none. The estimators go on with it, because it mostly
+  // turns out to be right.
+  if (vo_.reason == VoReason::kOrientationUnproven) withhold_plane(&plane_);
   to_wire(output, &ego_);
   plane_.seq = ego_.seq = last_motion_seq_;
   ego_.reset_counter += reset_offset_;

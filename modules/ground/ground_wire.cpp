@@ -129,7 +129,7 @@ const char* ego_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   if (message.status < ego_motion_t::STATUS_OK || message.status > ego_motion_t::STATUS_LOST)
     return "ego motion: unknown status";
   if (message.reason < 0 ||
-      message.reason > static_cast<std::int8_t>(VoReason::kCalibrationDoubted))
+      message.reason > static_cast<std::int8_t>(VoReason::kOrientationUnproven))
     return "ego motion: unknown reason";
   ego->status = static_cast<EgoStatus>(message.status);
   ego->reason = static_cast<VoReason>(message.reason);
@@ -173,6 +173,16 @@ void to_wire(const GroundOutput& output, ground_plane_t* message) {
   message->num_cues = static_cast<std::int8_t>(kNumCues);
   message->cues.resize(kNumCues);
   for (std::size_t i = 0; i < kNumCues; ++i) to_wire(plane.cues[i], &message->cues[i]);
+}
+
+void withhold_plane(ground_plane_t* message) {
+  message->status = ground_plane_t::STATUS_INITIALIZING;
+  message->reason = ground_plane_t::REASON_VO_NOT_READY;
+  message->height_m = message->pitch_rad = message->roll_rad = kNan;
+  for (int i = 0; i < 3; ++i) {
+    message->normal_cam[i] = kNan;
+    for (double& value : message->cov[i]) value = kNan;
+  }
 }
 
 void to_wire(const GroundOutput& output, ego_motion_t* message) {

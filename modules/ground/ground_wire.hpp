@@ -12,6 +12,8 @@ namespace plumb {
 
 void to_wire(const GroundOutput& output, ground_plane_t* message);
 void to_wire(const GroundOutput& output, ego_motion_t* message);
+/// Makes the plane of the message one that is not known yet. Its cues stay.
+void withhold_plane(ground_plane_t* message);
 
 /// Fills `output` and returns null when both messages keep their contracts and belong to the same
 /// image; else returns why not. Cues beyond kNumCues are ignored, missing ones are absent.

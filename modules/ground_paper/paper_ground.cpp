@@ -95,8 +95,10 @@ const GroundOutput& PaperGround::update(const GroundInput& input, StageProbe& pr
   write_plane(m.started ? &m.filter : nullptr, frame, m.height_m, &m.out.plane);
   probe.mark("fuse");
   const Eigen::Vector3d normal = m.started ? m.filter.normal() : m.normal_calibrated;
+  // A height that was found in a picture that may be upside down is not known yet.
+  const bool knows_scale = m.started && vo.reason != VoReason::kOrientationUnproven;
   const ScaleEstimate scale =
-      m.started ? paper_scale(m.filter, frame, m.metres_per_vo, m.height_m) : ScaleEstimate{};
+      knows_scale ? paper_scale(m.filter, frame, m.metres_per_vo, m.height_m) : ScaleEstimate{};
   m.ego.update(vo, scale, normal, &m.out.ego);
   probe.mark("ego");
   return m.out;

@@ -17,7 +17,8 @@
 ///     it looks like a standing car. Without noise it is kUnproven until the picture moves.
 ///   - A single repetition with fresh noise below about 2 m/s: it looks like a stop.
 ///   - A picture that was mirrored or upside down from the first image on; only the change is seen.
-///     Mirrored left to right, the world itself is plausible. Upside down contradicts the plane.
+///     Mirrored left to right, the world itself is plausible. Upside down is seen by
+///     vo::OrientationCheck.
 ///   - A repetition from the rebound of the body after a hard stop, for single images.
 ///   - A single torn band in the middle of the picture that is three or more images old, where the
 ///     scene has little texture.

@@ -15,6 +15,7 @@ constexpr double kStraight_rad_s = 0.02;
 constexpr double kEndOfAlarmRatio = 0.5;
 
 MountReason reason_of(const GroundOutput& ground) {
+  if (ground.ego.reason == VoReason::kImageUpsideDown) return MountReason::kUpsideDown;
   if (ground.ego.status != EgoStatus::kOk) return MountReason::kNoMotion;
   if (ground.plane.status != GroundStatus::kOk) return MountReason::kNoPlane;
   // A speed that is not measured is NaN.
@@ -35,7 +36,7 @@ void MountCheck::restore(const MountReference& reference) {
   report_.reference = reference;
   report_.num_stretches = reference.num_stretches;
   report_.progress = 1.0;
-  report_.status = MountStatus::kSteady;
+  report_.status = status_ = MountStatus::kSteady;
 }
 
 const MountReport& MountCheck::update(const GroundOutput& ground) {
@@ -64,17 +65,25 @@ void MountCheck::end_stretch() {
   report_.recent_rad = mean(num_recent);
   const auto needed = static_cast<std::size_t>(config_.num_stretches);
   if (num_stretches_ > 1) report_.spread_rad = spread(std::min(num_stretches_, needed));
-  if (report_.reference) {
-    if (num_recent == kNumRecent) judge();
-    return;
+  if (!report_.reference) {
+    report_.num_stretches = static_cast<int>(std::min(num_stretches_, needed));
+    if (num_stretches_ >= needed) make_reference();
+  } else if (num_recent == kNumRecent) {
+    judge();
   }
-  report_.num_stretches = static_cast<int>(std::min(num_stretches_, needed));
-  if (num_stretches_ >= needed) make_reference();
+  report_.status = num_recent == kNumRecent && is_misaligned() ? MountStatus::kMisaligned : status_;
+}
+
+/// The plane gives the direction up or down: on a straight road, travel is parallel to it.
+bool MountCheck::is_misaligned() const {
+  const double off_rad =
+      std::max(std::abs(report_.recent_rad.x()), std::abs(report_.recent_rad.z()));
+  return off_rad > config_.misaligned_rad;
 }
 
 void MountCheck::make_reference() {
   if (report_.spread_rad.maxCoeff() > config_.max_spread_rad) {
-    report_.status = MountStatus::kUnsteady;
+    status_ = MountStatus::kUnsteady;
     return;
   }
   const auto count = static_cast<std::size_t>(config_.num_stretches);
@@ -84,9 +93,9 @@ void MountCheck::make_reference() {
 
 void MountCheck::judge() {
   const double off_rad = (report_.recent_rad - report_.reference->mean_rad).cwiseAbs().maxCoeff();
-  const bool alarmed = report_.status == MountStatus::kMoved;
+  const bool alarmed = status_ == MountStatus::kMoved;
   const double limit_rad = alarmed ? kEndOfAlarmRatio * config_.alarm_rad : config_.alarm_rad;
-  report_.status = off_rad > limit_rad ? MountStatus::kMoved : MountStatus::kSteady;
+  status_ = off_rad > limit_rad ? MountStatus::kMoved : MountStatus::kSteady;
 }
 
 const Eigen::Vector3d& MountCheck::newest(std::size_t back) const {

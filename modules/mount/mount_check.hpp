@@ -1,6 +1,7 @@
 /// Monitors the orientation of the camera on its vehicle. The first straight stretches of road give
-/// a reference; an alarm is raised when the orientation later differs from it. The height is not
-/// monitored, because the metric scale is derived from it.
+/// a reference; an alarm is raised when the orientation later differs from it, and another one when
+/// the direction of travel is far off the optical axis. The height is not monitored, because the
+/// metric scale is derived from it.
 ///
 /// Angles:
 ///   (pitch, roll, yaw) [rad]: pitch and roll of the camera against the road, nose and right side
@@ -21,7 +22,13 @@
 namespace plumb {
 
 /// The numbers are those of mount_t.STATUS_*.
-enum class MountStatus : std::int8_t { kCollecting = 0, kUnsteady = 1, kSteady = 2, kMoved = 3 };
+enum class MountStatus : std::int8_t {
+  kCollecting = 0,
+  kUnsteady = 1,
+  kSteady = 2,
+  kMoved = 3,
+  kMisaligned = 4,
+};
 
 /// The numbers are those of mount_t.REASON_*.
 enum class MountReason : std::int8_t {
@@ -30,6 +37,7 @@ enum class MountReason : std::int8_t {
   kNoPlane = 2,
   kSlow = 3,
   kTurning = 4,
+  kUpsideDown = 5,
 };
 
 struct MountReference {
@@ -67,6 +75,7 @@ class MountCheck {
   void end_stretch();
   void make_reference();
   void judge();
+  [[nodiscard]] bool is_misaligned() const;
   /// Mean of the newest `count` stretches.
   [[nodiscard]] Eigen::Vector3d mean(std::size_t count) const;
   /// Standard deviation of the newest `count` stretches.
@@ -78,6 +87,7 @@ class MountCheck {
   std::size_t num_stretches_ = 0;  ///< since construction
   Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
   double distance_m_ = 0.0;
+  MountStatus status_ = MountStatus::kCollecting;  ///< as the reference alone tells it
   MountReport report_;
 };
 

@@ -10,6 +10,7 @@ struct MountConfig {
   int num_stretches = 10;
   double max_spread_rad = 0.01;
   double alarm_rad = 0.0175;
+  double misaligned_rad = 0.175;
   std::string state_file;
 
   template <typename Config, typename Visit>
@@ -24,6 +25,9 @@ struct MountConfig {
     field("mount.alarm_rad", c.alarm_rad, 0.002, 0.2,
           "the camera has moved when pitch, roll or yaw differs from the reference by more; the "
           "alarm ends at half of it");
+    field("mount.misaligned_rad", c.misaligned_rad, 0.05, 0.8,
+          "the camera is misaligned when the direction of travel is farther than this from the "
+          "optical axis, up or down or to a side");
     field("mount.state_file", c.state_file,
           "file that keeps the reference over restarts; delete it after work on the camera; empty: "
           "no file");

@@ -50,6 +50,12 @@ void MountNode::save() const {
 void MountNode::write_alarm() {
   alarm_[0] = '\0';
   const MountReport& report = check_.report();
+  if (report.status == MountStatus::kMisaligned) {
+    std::snprintf(
+        alarm_, sizeof alarm_,
+        "the camera looks far off the direction of travel: %+.1f deg down, %+.1f deg left",
+        degrees(report.recent_rad.x()), degrees(report.recent_rad.z()));
+  }
   if (report.status != MountStatus::kMoved) return;
   const Eigen::Vector3d off_rad = report.recent_rad - report.reference->mean_rad;
   std::snprintf(alarm_, sizeof alarm_,

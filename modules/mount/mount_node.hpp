@@ -24,7 +24,7 @@ class MountNode {
   const mount_t* update(const GroundOutput& ground);
   [[nodiscard]] const MountReport& report() const { return check_.report(); }
   /// The reason why the process is degraded, with the angles of the newest message. Null while the
-  /// camera has not moved.
+  /// camera sits as it should.
   [[nodiscard]] const char* alarm() const;
 
  private:

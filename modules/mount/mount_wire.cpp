@@ -10,11 +10,13 @@ static_assert(same(MountStatus::kCollecting, mount_t::STATUS_COLLECTING));
 static_assert(same(MountStatus::kUnsteady, mount_t::STATUS_UNSTEADY));
 static_assert(same(MountStatus::kSteady, mount_t::STATUS_STEADY));
 static_assert(same(MountStatus::kMoved, mount_t::STATUS_MOVED));
+static_assert(same(MountStatus::kMisaligned, mount_t::STATUS_MISALIGNED));
 static_assert(same(MountReason::kNone, mount_t::REASON_NONE));
 static_assert(same(MountReason::kNoMotion, mount_t::REASON_NO_MOTION));
 static_assert(same(MountReason::kNoPlane, mount_t::REASON_NO_PLANE));
 static_assert(same(MountReason::kSlow, mount_t::REASON_SLOW));
 static_assert(same(MountReason::kTurning, mount_t::REASON_TURNING));
+static_assert(same(MountReason::kUpsideDown, mount_t::REASON_UPSIDE_DOWN));
 
 }  // namespace
 

@@ -34,12 +34,19 @@ class VoProcess {
   const char* on_calibration(const plumb::camera_calibration_t& message) {
     const char* refused = node_.take_calibration(message);
     if (ready_us_ == 0 && node_.calibrated()) ready_us_ = plumb::monotonic_us();
-    if (refused != nullptr && node_.calibrated()) {
-      process_.health().set_condition(plumb::HealthState::kDegraded, refused);
-    } else if (node_.calibrated()) {
+    refused_calibration_ = refused;
+    show_condition();
+    return refused;
+  }
+
+  void show_condition() {
+    if (!node_.calibrated()) return;
+    const char* concern = refused_calibration_ != nullptr ? refused_calibration_ : node_.concern();
+    if (concern != nullptr) {
+      process_.health().set_condition(plumb::HealthState::kDegraded, concern);
+    } else {
       process_.health().clear_condition();
     }
-    return refused;
   }
 
   const char* on_image(plumb::RawSubscriber::Bytes bytes) {
@@ -51,6 +58,7 @@ class VoProcess {
     if (node_.motion() != nullptr) {
       camera_.set_capture_us(node_.motion()->capture_mono_us);
       motion_.publish(*node_.motion());
+      show_condition();
     }
     // A skipped image leaves a gap in the numbers, too.
     process_.counters().num_dropped =
@@ -61,6 +69,7 @@ class VoProcess {
 
   plumb::Process& process_;
   std::int64_t max_wait_us_;
+  const char* refused_calibration_ = nullptr;  ///< why the newest calibration was refused, or null
   std::int64_t ready_us_ = 0;  ///< monotonic time at which the estimator had been created
   plumb::VoNode node_;
   plumb::Publisher<plumb::vo_motion_t> motion_;

@@ -116,17 +116,28 @@ VoInput ImageJudge::judge_picture(const ImageView& image) {
   const bool is_contiguous =
       verdict_.reason == TimeReason::kNone || verdict_.reason == TimeReason::kStarting;
   if (is_discontinuous_) pictures_.reset();
-  const PictureVerdict verdict = pictures_.update(image, {is_contiguous, guessed_interval_s_});
+  PictureVerdict verdict = pictures_.update(image, {is_contiguous, guessed_interval_s_});
+  // The pictures before were not upright, so this one may be.
+  const bool is_turned = verdict.reason == PictureReason::kUpsideDown && is_orientation_doubted_;
+  if (is_turned) {
+    pictures_.reset();
+    verdict = {};
+  }
+  is_picture_used_ = verdict.is_fresh();
   handed_on_ = image_;
   return {.capture_us = image_.capture_us,
           .seq = numbers_.take(image_.seq),
           .image = image,
           .interval_s = guessed_interval_s_,
-          .is_discontinuous = is_discontinuous_,
+          .is_discontinuous = is_discontinuous_ || is_turned,
           .unusable = reason_of(verdict.reason)};
 }
 
-void ImageJudge::complete(vo_motion_t* motion) const {
+void ImageJudge::complete(vo_motion_t* motion) {
+  if (is_picture_used_) {
+    is_orientation_doubted_ = motion->reason == vo_motion_t::REASON_IMAGE_UPSIDE_DOWN ||
+                              motion->reason == vo_motion_t::REASON_ORIENTATION_UNPROVEN;
+  }
   motion->seq = image_.seq;
   motion->capture_mono_us = capture_mono_us_;
   motion->prev_seq = previous_.seq;

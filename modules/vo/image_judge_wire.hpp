@@ -36,8 +36,8 @@ class ImageJudge {
   [[nodiscard]] VoInput judge_picture(const ImageView& image);
 
   /// Writes into the message what the judge knows of the image that it judged last: the source's
-  /// numbers, times and reasons.
-  void complete(vo_motion_t* motion) const;
+  /// numbers, times and reasons. Learns from it whether the picture was upright.
+  void complete(vo_motion_t* motion);
 
   /// Number of images that never came, by the gaps in their numbers.
   [[nodiscard]] std::int64_t num_lost() const { return num_lost_; }
@@ -60,6 +60,8 @@ class ImageJudge {
   Image handed_on_;                ///< the newest one that was handed on
   int num_refused_ = 0;            ///< since then
   bool is_discontinuous_ = false;  ///< nothing connects `image_` with `handed_on_`
+  bool is_picture_used_ = false;   ///< nothing speaks against the newest picture
+  bool is_orientation_doubted_ = false;  ///< the last usable picture was not known to be upright
   std::int64_t capture_mono_us_ = 0;
   double interval_s_ = kNan;       ///< from `previous_` to `image_`; NaN while in doubt
   double interval_std_s_ = kNan;   ///< of interval_s_, by the jitter of the stamps

@@ -2,6 +2,7 @@
 
 #include "core/percentile.hpp"
 #include "modules/vo/image_health.hpp"
+#include "modules/vo/inverse_depth.hpp"
 #include "modules/vo/road_points.hpp"
 
 namespace plumb::vo {
@@ -26,7 +27,8 @@ Pipeline::Pipeline(const VoConfig& config, const CameraModel& camera, std::uint6
       map_(config, camera),
       motion_(config),
       zero_motion_(config, camera),
-      initializer_(config, camera, seed) {
+      initializer_(config, camera, seed),
+      orientation_(static_cast<std::size_t>(track_capacity(config))) {
   scratch_.reserve(static_cast<std::size_t>(track_capacity(config)));
 }
 
@@ -55,6 +57,7 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
     track(probe);
   }
   report(input);
+  judge_orientation();
   probe.mark("output");
   return out_;
 }
@@ -83,6 +86,7 @@ void Pipeline::break_off() {
   motion_.forget();
   zero_motion_.reset();
   coasted_cov_.setZero();
+  orientation_.reset();
   is_broken_off_ = initializer_.has_reference();
   is_map_doubted_ = false;
 }
@@ -268,6 +272,47 @@ void Pipeline::report_motion(const Se3& T_cam_world) {
   // Zero motion is reported as exact zeros, not as the difference of two equal poses.
   if (out_.status == VoStatus::kStandstill) out_.T_prev_cam = Se3{};
   if (out_.status == VoStatus::kRotationOnly) out_.T_prev_cam.t.setZero();
+}
+
+/// Upside down, the motion has wrong signs and the plane is none. Then nothing is reported as
+/// valid, while tracking goes on. When the camera has been turned, a new map begins, with a unit of
+/// its own, so that nothing that was found upside down is used any more.
+void Pipeline::judge_orientation() {
+  if (out_.scale_epoch != oriented_epoch_) orientation_.loosen();
+  oriented_epoch_ = out_.scale_epoch;
+  const bool was_upside_down = orientation_.verdict() == Orientation::kUpsideDown;
+  if (out_.status == VoStatus::kOk) observe_orientation();
+  const Orientation now = orientation_.verdict();
+  if (was_upside_down && now != Orientation::kUpsideDown) break_off();
+  if (out_.status == VoStatus::kLost) return;
+  if (now == Orientation::kUpsideDown) {
+    out_.status = VoStatus::kLost;
+    out_.reason = VoReason::kImageUpsideDown;
+    out_.T_prev_cam = Se3{};
+    out_.road_points.clear();
+  } else if (now == Orientation::kUnproven) {
+    out_.reason = VoReason::kOrientationUnproven;
+  }
+}
+
+/// Shows the tracks to the judge of the orientation. The direction of travel is that over the whole
+/// window, over which the car's pitching averages out.
+void Pipeline::observe_orientation() {
+  if (out_.window.empty()) return;
+  const Window& window = map_.window;
+  const Se3 T_cam_world = map_.last_pose();
+  const Se3& T_window_cam = out_.window[out_.window.size() - 1].T_window_cam;
+  orientation_.begin(T_window_cam.R.transpose() * T_window_cam.t);
+  for (const int index : map_.tracks.active()) {
+    const Track& track = map_.tracks[index];
+    const Se3 T_cam_host = T_cam_world * window[track.host].T_cam_world.inverse();
+    double rho = 0.0;
+    double rho_std = 0.0;
+    if (inverse_depth_in(track, T_cam_host, &rho, &rho_std)) {
+      orientation_.add(track.xy, rho, rho_std);
+    }
+  }
+  orientation_.end();
 }
 
 }  // namespace plumb::vo

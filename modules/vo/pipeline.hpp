@@ -9,6 +9,8 @@
 ///      The pose is one of a moving camera (handle_motion) or of one that does not translate
 ///      (handle_zero_motion). Without enough inliers, Initializer starts again.
 ///   4. report() derives the output from the refined poses.
+///   5. judge_orientation() withholds motions of a camera that is upside down, and marks them while
+///      that is not known.
 ///
 /// Frames:
 ///   world: cam of the first image.  cam: cam of the newest image.
@@ -25,6 +27,7 @@
 #include "modules/vo/initializer.hpp"
 #include "modules/vo/local_map.hpp"
 #include "modules/vo/motion_predictor.hpp"
+#include "modules/vo/orientation_check.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/zero_motion_detector.hpp"
 
@@ -50,6 +53,8 @@ class Pipeline {
   void report_fit(const PoseFit& pose);
   void report(const VoInput& input);
   void report_motion(const Se3& T_cam_world);
+  void judge_orientation();
+  void observe_orientation();
 
   VoConfig config_;
   CameraModel camera_;
@@ -57,13 +62,15 @@ class Pipeline {
   MotionPredictor motion_;
   ZeroMotionDetector zero_motion_;
   Initializer initializer_;
+  OrientationCheck orientation_;
 
   FrameTime time_;
-  std::int64_t last_seq_ = -1;   // number of the previous image; -1 before the first image
-  bool is_broken_off_ = false;   // the next usable image begins a new map
-  bool is_map_doubted_ = false;  // the same, and the motion so far carries on
-  Se3 T_last_world_;             // its pose as it was published
-  double unplaced_s_ = 0.0;      // since the last image with a pose, measured or predicted
+  std::int64_t last_seq_ = -1;       // number of the previous image; -1 before the first image
+  std::int32_t oriented_epoch_ = 0;  // scale epoch of the last verdict on the orientation
+  bool is_broken_off_ = false;       // the next usable image begins a new map
+  bool is_map_doubted_ = false;      // the same, and the motion so far carries on
+  Se3 T_last_world_;                 // its pose as it was published
+  double unplaced_s_ = 0.0;          // since the last image with a pose, measured or predicted
   Matrix6d coasted_cov_ = Matrix6d::Zero();  // of that pose, if it was predicted
   std::vector<double> scratch_;
   VoOutput out_;

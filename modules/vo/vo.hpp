@@ -74,6 +74,7 @@ enum class VoReason : std::int8_t {
   kMotionMissing = 24,
   kImplausible = 25,
   kCalibrationDoubted = 26,
+  kOrientationUnproven = 27,
 };
 
 struct VoInput {

@@ -1,5 +1,7 @@
 #include "modules/vo/vo_node.hpp"
 
+#include "core/principal_point.hpp"
+
 namespace plumb {
 
 VoNode::VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe,
@@ -48,6 +50,14 @@ const char* VoNode::take_image(std::span<const std::uint8_t> image_bytes, std::i
   motion_.session = session_;
   probe_->mark("to_wire");
   fresh_ = true;
+  return nullptr;
+}
+
+const char* VoNode::concern() const {
+  if (motion_.reason == vo_motion_t::REASON_IMAGE_UPSIDE_DOWN) return "the picture is upside down";
+  if (calibrated() && !is_principal_point_central(calibration_.camera())) {
+    return kPrincipalPointIsOff;
+  }
   return nullptr;
 }
 

@@ -48,6 +48,8 @@ class VoNode {
   [[nodiscard]] bool calibrated() const { return estimator_.has_value(); }
   /// Whether calibrations contradict each other.
   [[nodiscard]] bool is_calibration_doubted() const { return calibration_.is_doubted(); }
+  /// Returns what is wrong with the camera, in plain words, or null.
+  [[nodiscard]] const char* concern() const;
   /// Returns the number of images that never came, by the gaps in their numbers.
   [[nodiscard]] std::int64_t num_lost() const { return judge_ ? judge_->num_lost() : 0; }
 

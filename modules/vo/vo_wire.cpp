@@ -43,6 +43,7 @@ static_assert(same(VoReason::kTimeUnit, vo_motion_t::REASON_TIME_UNIT));
 static_assert(same(VoReason::kMotionMissing, vo_motion_t::REASON_MOTION_MISSING));
 static_assert(same(VoReason::kImplausible, vo_motion_t::REASON_IMPLAUSIBLE));
 static_assert(same(VoReason::kCalibrationDoubted, vo_motion_t::REASON_CALIBRATION_DOUBTED));
+static_assert(same(VoReason::kOrientationUnproven, vo_motion_t::REASON_ORIENTATION_UNPROVEN));
 static_assert(sizeof(vo_motion_t::road_points_cam) / sizeof(vo_motion_t::road_points_cam[0]) ==
               kMaxRoadPoints);
 static_assert(sizeof(vo_motion_t::window_seq) / sizeof(vo_motion_t::window_seq[0]) ==
@@ -155,7 +156,7 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
   if (message.status < vo_motion_t::STATUS_OK || message.status > vo_motion_t::STATUS_LOST)
     return "VO motion: unknown status";
   if (message.reason < vo_motion_t::REASON_NONE ||
-      message.reason > vo_motion_t::REASON_CALIBRATION_DOUBTED)
+      message.reason > vo_motion_t::REASON_ORIENTATION_UNPROVEN)
     return "VO motion: unknown reason";
   if (std::isinf(message.scale_carry_std) || message.scale_carry_std < 0.0)
     return "VO motion: the standard deviation of the scale is negative or infinite";

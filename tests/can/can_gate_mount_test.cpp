@@ -140,10 +140,10 @@ TEST(CanMountWire, RefusesABrokenMessage) {
     return from_wire(message, default_messages(), &mount) != nullptr;
   };
   const auto nothing = [](mount_t&) {};
-  for (std::int8_t status = 0; status < 4; ++status) EXPECT_FALSE(refused(status, nothing));
+  for (std::int8_t status = 0; status < 5; ++status) EXPECT_FALSE(refused(status, nothing));
   const std::int8_t moved = mount_t::STATUS_MOVED;
   EXPECT_TRUE(refused(moved, [](mount_t& m) { m.status = -1; }));
-  EXPECT_TRUE(refused(moved, [](mount_t& m) { m.status = 4; }));
+  EXPECT_TRUE(refused(moved, [](mount_t& m) { m.status = 5; }));
   EXPECT_TRUE(refused(moved, [](mount_t& m) { m.reason = -1; }));
   EXPECT_TRUE(refused(moved, [](mount_t& m) { m.reason = 15; }));
   for (const double bad : {kNan, -0.01, 1.01, kInf}) {

@@ -249,12 +249,14 @@ TEST_F(DbcFile, TheMountHasTheNumbersOfTheMessage) {
   EXPECT_EQ(status.at(mount_t::STATUS_UNSTEADY), "UNSTEADY");
   EXPECT_EQ(status.at(mount_t::STATUS_STEADY), "STEADY");
   EXPECT_EQ(status.at(mount_t::STATUS_MOVED), "MOVED");
+  EXPECT_EQ(status.at(mount_t::STATUS_MISALIGNED), "MISALIGNED");
   const auto& reason = values("PLB_Mount", "Mount_Reason");
   EXPECT_EQ(reason.at(mount_t::REASON_NONE), "NONE");
   EXPECT_EQ(reason.at(mount_t::REASON_NO_MOTION), "NO_MOTION");
   EXPECT_EQ(reason.at(mount_t::REASON_NO_PLANE), "NO_PLANE");
   EXPECT_EQ(reason.at(mount_t::REASON_SLOW), "SLOW");
   EXPECT_EQ(reason.at(mount_t::REASON_TURNING), "TURNING");
+  EXPECT_EQ(reason.at(mount_t::REASON_UPSIDE_DOWN), "UPSIDE_DOWN");
 }
 
 TEST_F(DbcFile, ReasonsHaveTheNumbersOfTheMessages) {

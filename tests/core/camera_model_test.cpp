@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/principal_point.hpp"
+
 namespace plumb {
 namespace {
 
@@ -67,6 +69,22 @@ TEST(CameraModel, UnprojectInvertsProjectOverTheWholeImage) {
       }
     }
   }
+}
+
+TEST(PrincipalPoint, BelongsWithinATenthOfTheMiddle) {
+  CameraModel camera;
+  camera.width_px = 1001;
+  camera.height_px = 401;
+  for (const double off : {-0.099, 0.0, 0.099}) {
+    camera.cx_px = 500.0 + off * 1001.0;
+    camera.cy_px = 200.0 - off * 401.0;
+    EXPECT_TRUE(is_principal_point_central(camera)) << off;
+  }
+  camera.cx_px = 500.0 + 0.101 * 1001.0;
+  EXPECT_FALSE(is_principal_point_central(camera));
+  camera.cx_px = 500.0;
+  camera.cy_px = 200.0 - 0.101 * 401.0;
+  EXPECT_FALSE(is_principal_point_central(camera));
 }
 
 }  // namespace

@@ -115,5 +115,17 @@ TEST(Faults, TheJudgeSeesASpeedThatIsNotTheTruth) {
   EXPECT_NEAR(result.worst_error_m_s, 5.0, 1.0);
 }
 
+TEST(Faults, ACameraThatIsUpsideDownIsNeverBelieved) {
+  const FaultResult result = run_fault(fault("upside_down").make(street()), PlumbConfig{});
+  EXPECT_EQ(result.num_valid, 0);
+  EXPECT_EQ(result.last_reason, "image_upside_down");
+}
+
+TEST(Faults, ACameraThatIsTurnedUprightIsBelievedAgain) {
+  const FaultResult result = run_fault(fault("upside_down_at_first").make(street()), PlumbConfig{});
+  EXPECT_EQ(result.num_wrong, 0) << result.worst_error_m_s;
+  EXPECT_GT(result.num_valid, 0);
+}
+
 }  // namespace
 }  // namespace plumb

@@ -94,5 +94,27 @@ TEST_F(MountCheckTest, GoesOnFromAnEarlierReference) {
   EXPECT_EQ(drive(110.0, kMount_deg + Eigen::Vector3d(0.0, 0.0, 2.0)).status, MountStatus::kMoved);
 }
 
+TEST_F(MountCheckTest, ACameraThatLooksFarAsideIsSaidBesideItsReference) {
+  for (const Eigen::Vector3d& off_deg :
+       {Eigen::Vector3d(11.0, 0.0, 0.0), Eigen::Vector3d(0.0, 0.0, -11.0)}) {
+    check_ = MountCheck{MountConfig{}};
+    EXPECT_EQ(drive(110.0, off_deg).status, MountStatus::kCollecting) << "two stretches are few";
+    EXPECT_EQ(drive(100.0, off_deg).status, MountStatus::kMisaligned);
+    EXPECT_EQ(drive(310.0, off_deg).status, MountStatus::kMisaligned);
+    EXPECT_TRUE(check_.report().reference.has_value());
+    EXPECT_EQ(drive(250.0, Eigen::Vector3d::Zero()).status, MountStatus::kMoved)
+        << "it differs from its reference";
+  }
+  check_ = MountCheck{MountConfig{}};
+  EXPECT_EQ(drive(520.0, {9.0, 0.0, -9.0}).status, MountStatus::kSteady);
+}
+
+TEST_F(MountCheckTest, AnUpsideDownPictureTellsNothing) {
+  GroundOutput output = straight_on(Eigen::Vector3d::Zero());
+  output.ego.status = EgoStatus::kLost;
+  output.ego.reason = VoReason::kImageUpsideDown;
+  EXPECT_EQ(check_.update(output).reason, MountReason::kUpsideDown);
+}
+
 }  // namespace
 }  // namespace plumb

@@ -93,5 +93,15 @@ TEST_F(MountNodeTest, WithoutAFileItWritesNone) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
+TEST_F(MountNodeTest, SaysHowFarTheCameraLooksOffTheDirectionOfTravel) {
+  MountNode node(config_);
+  drive(&node, 210.0, 12.0);
+  EXPECT_EQ(last_.status, mount_t::STATUS_MISALIGNED);
+  EXPECT_STREQ(node.alarm(),
+               "the camera looks far off the direction of travel: +0.0 deg down, +12.0 deg left");
+  drive(&node, 250.0, 0.5);
+  EXPECT_EQ(node.alarm(), nullptr);
+}
+
 }  // namespace
 }  // namespace plumb

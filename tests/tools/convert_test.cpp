@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/channels.hpp"
+#include "core/principal_point.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "platform/bounded_decode.hpp"
 #include "platform/log_file.hpp"
@@ -185,6 +186,13 @@ TEST_F(Convert, RefusesAPrincipalPointOutsideTheImage) {
   test::write_odometry(folder_, 2);
   folder_.write("seq/calib.txt", "P0: 80 0 480 0 0 80 36 0 0 0 1 0\n");
   expect_contains(input_error_of([&] { run(); }), "principal point");
+}
+
+TEST_F(Convert, DoubtsAPrincipalPointFarOffTheMiddle) {
+  test::write_odometry(folder_, 2);
+  EXPECT_EQ(run().concern, nullptr);
+  folder_.write("seq/calib.txt", "P0: 80 0 48 0 0 80 46 0 0 0 1 0\n");
+  EXPECT_STREQ(run().concern, kPrincipalPointIsOff);
 }
 
 TEST_F(Convert, RefusesRawImagesThatWereNotRectified) {

@@ -152,7 +152,7 @@ TEST(GroundWire, TheMessageNamesTheCuesOfTheTable) {
 
 TEST(GroundWire, RefusesAMotionThatIsNone) {
   EXPECT_EQ("ego motion: unknown status", refused_ego([](auto* m) { m->status = 6; }));
-  EXPECT_EQ("ego motion: unknown reason", refused_ego([](auto* m) { m->reason = 27; }));
+  EXPECT_EQ("ego motion: unknown reason", refused_ego([](auto* m) { m->reason = 28; }));
   EXPECT_EQ("ego motion: a pose is not a pose",
             refused_ego([](auto* m) { m->q_world_cam[3] = 2; }));
   EXPECT_EQ("ego motion: not a covariance",
@@ -191,6 +191,19 @@ TEST(GroundWire, RefusesMessagesOfDifferentImages) {
   const std::string apart = "ground plane and ego motion are of different images";
   EXPECT_EQ(apart, refused_ego([](auto* m) { m->seq = 43; }));
   EXPECT_EQ(apart, refused_plane([](auto* m) { m->utime += 1; }));
+}
+
+TEST(GroundWire, AWithheldPlaneIsSoundAndNotValid) {
+  ground_plane_t plane{};
+  ego_motion_t ego{};
+  to_wire(test::sample_ground_output(), &plane);
+  to_wire(test::sample_ground_output(), &ego);
+  withhold_plane(&plane);
+  GroundOutput out;
+  EXPECT_EQ(from_wire(plane, ego, &out), nullptr);
+  EXPECT_EQ(out.plane.status, GroundStatus::kInitializing);
+  EXPECT_TRUE(std::isnan(out.plane.height_m));
+  EXPECT_TRUE(std::isnan(out.plane.cov(2, 2)));
 }
 
 }  // namespace

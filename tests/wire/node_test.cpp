@@ -66,6 +66,18 @@ TEST_F(VoNodeTest, TakesTheFirstCalibrationAndRefusesADifferentOne) {
                node_->take_calibration(to_wire(other, 0)));
 }
 
+TEST_F(VoNodeTest, SaysThatThePrincipalPointIsOff) {
+  EXPECT_EQ(node_->concern(), nullptr);
+  node_->configure_camera(kModel);
+  EXPECT_EQ(node_->concern(), nullptr);
+  CameraModel off = kModel;
+  off.cy_px = 80.0;
+  node_ = std::make_unique<VoNode>(VoConfig{}, 1, &probe_);
+  node_->configure_camera(off);
+  EXPECT_STREQ(node_->concern(),
+               "the calibration's principal point is more than 10 % of the picture off its middle");
+}
+
 TEST_F(VoNodeTest, RefusesWrongImagesAndGoesOn) {
   ASSERT_EQ(nullptr, node_->take_calibration(to_wire(kModel, 0)));
   for (std::int64_t seq = 1; seq <= 3; ++seq) EXPECT_EQ("", take(image_bytes(seq)));

@@ -77,7 +77,7 @@ TEST(VoWire, RefusesCountsAndNumbersOutOfRange) {
   EXPECT_EQ("", refusal([](vo_motion_t*) {}));
   EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = 6; }));
   EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = -1; }));
-  EXPECT_EQ("VO motion: unknown reason", refusal([](vo_motion_t* m) { m->reason = 27; }));
+  EXPECT_EQ("VO motion: unknown reason", refusal([](vo_motion_t* m) { m->reason = 28; }));
   const std::string points = "VO motion: number of road points is out of range";
   EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = 385; }));
   EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = -1; }));

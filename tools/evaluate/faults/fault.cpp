@@ -301,6 +301,15 @@ FaultRun all_upside_down(const FaultDrive& drive) {
   return run;
 }
 
+FaultRun upside_down_at_first(const FaultDrive& drive) {
+  FaultRun run = sound(drive);
+  for (std::size_t i = 0; i < run.shots.size() / 3; ++i) {
+    run.shots[i].pixels = upside_down(run.shots[i].pixels);
+    run.shots[i].faulty = true;
+  }
+  return run;
+}
+
 FaultRun focal_length_doubled(const FaultDrive& drive) {
   FaultRun run = sound(drive);
   run.camera.fx_px *= 2.0;
@@ -335,6 +344,9 @@ std::vector<Fault> make_all() {
   rows.push_back(each_picture_n_times(2));
   rows.push_back(each_picture_n_times(3));
   rows.push_back({"upside_down", 'M', "the camera is mounted upside down", all_upside_down});
+  rows.push_back({"upside_down_at_first", 'M',
+                  "the camera is upside down for the first third of the drive",
+                  upside_down_at_first});
   rows.push_back({"focal_length_doubled", 'H', "the calibration states twice the focal length",
                   focal_length_doubled});
   return rows;

@@ -5,6 +5,7 @@
 
 #include "core/channels.hpp"
 #include "core/input_error.hpp"
+#include "core/principal_point.hpp"
 #include "modules/camera/image_wire.hpp"
 #include "modules/datasets/kitti/png_image.hpp"
 #include "modules/datasets/text.hpp"
@@ -56,6 +57,7 @@ class Converter {
     return result_;
   }
   [[nodiscard]] std::int64_t num_frames() const { return result_.num_frames; }
+  [[nodiscard]] const CameraModel& camera() const { return camera_; }
 
  private:
   template <typename Message>
@@ -164,6 +166,7 @@ ConvertResult convert(const Sequence& sequence, const ConvertOptions& options) {
                             static_cast<long long>(result.num_frames)));
   }
   ConvertResult result = converter.finish();
+  if (!is_principal_point_central(converter.camera())) result.concern = kPrincipalPointIsOff;
   result.stopped = result.num_frames < total;
   progress.finish(!result.stopped);
   return result;

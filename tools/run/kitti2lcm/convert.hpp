@@ -25,7 +25,8 @@ struct ConvertResult {
   std::int64_t num_detections = 0;
   std::int64_t log_bytes = 0;
   double duration_s = 0.0;
-  bool stopped = false;  ///< by a signal; the log has the frames up to then
+  const char* concern = nullptr;  ///< what is doubtful about the calibration, in plain words
+  bool stopped = false;           ///< by a signal; the log has the frames up to then
 };
 
 /// Shows its progress on stderr. Throws InputError for a bad image and LogError for a log that

@@ -90,6 +90,9 @@ int run(const plumb::SequenceOptions& options, plumb::ConvertOptions convert_opt
       1e-6 * static_cast<double>(result.log_bytes), static_cast<long long>(result.num_poses),
       static_cast<long long>(result.num_planes), static_cast<long long>(result.num_detections),
       result.stopped ? "; stopped early" : "");
+  if (result.concern != nullptr) {
+    std::cerr << "plumb-kitti2lcm: warning: " << result.concern << "\n";
+  }
   return 0;
 }
 
