@@ -27,8 +27,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 # plumb_program(name sources... LIBS libs...) adds a program to bin/; it is installed when it has been
-# built. Its main source is compiled with -O1, because optimising CLI11 for speed would double the
-# compile time.
+# built. Its main source is compiled with -O1, because it only connects what the libraries do.
 function(plumb_program name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <optional>
 
@@ -102,23 +104,7 @@ std::string short_number(double value) {
 
 }  // namespace
 
-int parse_command_line(CLI::App& app, const char* program, int argc, char** argv) {
-  app.set_version_flag("--version", std::string(program) + " " + plumb_version());
-  try {
-    app.parse(argc, argv);
-    return -1;
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success) == 0 ? kExitOk : kExitMachine;
-  } catch (const CLI::ParseError& error) {
-    const std::string what = sentence(app, error, argc > 1 ? argv[1] : "-");
-    const bool complete = what.back() == '?';
-    std::fprintf(stderr, "%s: %s%s\n", program, what.c_str(),
-                 complete ? "" : " (--help lists the options)");
-    return kExitRefused;
-  }
-}
-
-CLI::Validator one_of(std::vector<std::string> words) {
+ValueCheck one_of(std::vector<std::string> words) {
   const std::string shown = "{" + word_list(words) + "}";
   return {[words = std::move(words)](const std::string& text) -> std::string {
             if (std::find(words.begin(), words.end(), text) != words.end()) return {};
@@ -127,7 +113,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
           shown};
 }
 
-CLI::Validator within(double low, double high) {
+ValueCheck within(double low, double high) {
   const std::string range = "[" + short_number(low) + ", " + short_number(high) + "]";
   return {[low, high, range](const std::string& text) -> std::string {
             const std::optional<double> value = number_in(text);
@@ -137,13 +123,82 @@ CLI::Validator within(double low, double high) {
           "in " + range};
 }
 
-CLI::Validator at_least(double low) {
+ValueCheck at_least(double low) {
   return {[low](const std::string& text) -> std::string {
             const std::optional<double> value = number_in(text);
             if (!value) return text + " is not a number";
             return *value >= low ? "" : text + " is below " + short_number(low);
           },
           ">= " + short_number(low)};
+}
+
+Option Option::required() { return Option(option_->required()); }
+
+Option Option::check(const ValueCheck& check) {
+  return Option(option_->check(CLI::Validator(
+      [problem = check.problem](std::string& word) { return problem(word); }, check.shown)));
+}
+
+Option Option::take_all() { return Option(option_->take_all()); }
+Option Option::delimiter(char separator) { return Option(option_->delimiter(separator)); }
+Option Option::type_name(const std::string& name) { return Option(option_->type_name(name)); }
+Option Option::capture_default_str() { return Option(option_->capture_default_str()); }
+Option Option::needs(Option other) { return Option(option_->needs(other.option_)); }
+Option Option::excludes(Option other) { return Option(option_->excludes(other.option_)); }
+
+CommandLine::CommandLine(const std::string& summary, const std::string& program)
+    : app_(std::make_shared<CLI::App>(summary, program)) {}
+
+template <typename T>
+Option CommandLine::add_option(const std::string& name, T& value, const std::string& help) {
+  return Option(app_->add_option(name, value, help));
+}
+template Option CommandLine::add_option(const std::string&, std::string&, const std::string&);
+template Option CommandLine::add_option(const std::string&, std::filesystem::path&,
+                                        const std::string&);
+template Option CommandLine::add_option(const std::string&, int&, const std::string&);
+template Option CommandLine::add_option(const std::string&, std::int64_t&, const std::string&);
+template Option CommandLine::add_option(const std::string&, std::uint64_t&, const std::string&);
+template Option CommandLine::add_option(const std::string&, double&, const std::string&);
+template Option CommandLine::add_option(const std::string&, std::optional<std::int64_t>&,
+                                        const std::string&);
+template Option CommandLine::add_option(const std::string&, std::optional<double>&,
+                                        const std::string&);
+template Option CommandLine::add_option(const std::string&, std::vector<std::string>&,
+                                        const std::string&);
+template Option CommandLine::add_option(const std::string&, std::vector<std::int64_t>&,
+                                        const std::string&);
+
+Option CommandLine::add_flag(const std::string& name, bool& value, const std::string& help) {
+  return Option(app_->add_flag(name, value, help));
+}
+
+CommandLine CommandLine::add_subcommand(const std::string& name, const std::string& help) {
+  return CommandLine(app_->get_subcommand_ptr(app_->add_subcommand(name, help)));
+}
+
+void CommandLine::require_subcommand(std::size_t least, std::size_t most) {
+  app_->require_subcommand(least, most);
+}
+
+void CommandLine::footer(const std::string& text) { app_->footer(text); }
+bool CommandLine::parsed() const { return app_->parsed(); }
+const std::string& CommandLine::name() const { return app_->get_name(); }
+
+int CommandLine::parse(int argc, char** argv) {
+  app_->set_version_flag("--version", name() + " " + plumb_version());
+  try {
+    app_->parse(argc, argv);
+    return -1;
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app_->exit(success) == 0 ? kExitOk : kExitMachine;
+  } catch (const CLI::ParseError& error) {
+    const std::string what = sentence(*app_, error, argc > 1 ? argv[1] : "-");
+    const bool complete = what.back() == '?';
+    std::fprintf(stderr, "%s: %s%s\n", name().c_str(), what.c_str(),
+                 complete ? "" : " (--help lists the options)");
+    return kExitRefused;
+  }
 }
 
 }  // namespace plumb

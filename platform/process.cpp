@@ -1,6 +1,5 @@
 #include "platform/process.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -39,13 +38,13 @@ struct Process::Impl {
   ProcessInfo info;
   std::string program;
   std::int64_t session = realtime_us();
-  CLI::App app;
+  CommandLine app;
   std::string url;
   std::string config_path;
   bool print_config = false;
   bool print_text = false;
   std::function<std::string()> text;
-  std::function<void(CLI::App&)> declare;
+  std::function<void(CommandLine&)> declare;
   Counters counters;
   StageTimer timer;
   Health health;
@@ -57,7 +56,7 @@ Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) 
   block_stop_signals();           // the loop receives a signal that arrives before its construction
   std::signal(SIGPIPE, SIG_IGN);  // a reader of stderr that goes away ends nothing
   set_log_name(impl_->program.c_str());
-  CLI::App& app = impl_->app;
+  CommandLine& app = impl_->app;
   app.add_option("--lcm-url", impl_->url,
                  "LCM network; default $LCM_DEFAULT_URL, else this machine");
   app.add_option("--config", impl_->config_path, "TOML file; every key is optional");
@@ -67,7 +66,7 @@ Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) 
 
 Process::~Process() = default;
 
-void Process::declare_options(std::function<void(CLI::App&)> declare) {
+void Process::declare_options(std::function<void(CommandLine&)> declare) {
   impl_->declare = std::move(declare);
 }
 
@@ -88,7 +87,7 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
                        const std::function<void()>& setup) {
   try {
     if (impl_->declare) impl_->declare(impl_->app);
-    const int done = parse_command_line(impl_->app, impl_->program.c_str(), argc, argv);
+    const int done = impl_->app.parse(argc, argv);
     if (done >= 0) return done;
     check_url(impl_->url);
     config.load(impl_->config_path);

@@ -24,6 +24,7 @@
 #include "core/counters.hpp"
 #include "core/input_error.hpp"
 #include "platform/bus.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
 #include "platform/event_loop.hpp"
 #include "platform/health.hpp"
@@ -56,8 +57,8 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// Adds options of this program. `declare` runs within run() and needs <CLI/CLI.hpp>.
-  void declare_options(std::function<void(CLI::App&)> declare);
+  /// Adds options of this program. `declare` runs within run().
+  void declare_options(std::function<void(CommandLine&)> declare);
 
   /// Adds a flag that, like --print-config, prints a text made from the configuration and ends the
   /// program. `text` may throw InputError.

@@ -1,5 +1,4 @@
 /// plumb-camera: V4L2 device, KITTI folder or video -> CAMERA, CAMERA_CALIBRATION
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/utils/logger.hpp>
@@ -26,20 +25,21 @@ struct Options {
   double speed = 1.0;
 };
 
-void declare(CLI::App& app, Options* options) {
-  auto* device = app.add_option("--device", options->device, "V4L2 device; default camera.device");
-  auto* kitti =
+void declare(plumb::CommandLine& app, Options* options) {
+  plumb::Option device =
+      app.add_option("--device", options->device, "V4L2 device; default camera.device");
+  plumb::Option kitti =
       app.add_option("--kitti", options->kitti, "KITTI folder: image_<n>, times.txt, calib.txt");
-  auto* video = app.add_option("--video", options->video, "video file");
+  plumb::Option video = app.add_option("--video", options->video, "video file");
   app.add_option("--kitti-camera", options->kitti_camera, "which image_<n>; default 0")
-      ->check(plumb::within(0, 3))
-      ->needs(kitti);
+      .check(plumb::within(0, 3))
+      .needs(kitti);
   app.add_option("--speed", options->speed,
                  "pace of a recording; default 1, 0 is as fast as it goes")
-      ->check(plumb::within(0.0, 1000.0))
-      ->excludes(device);
-  device->excludes(kitti)->excludes(video);
-  kitti->excludes(video);
+      .check(plumb::within(0.0, 1000.0))
+      .excludes(device);
+  device.excludes(kitti).excludes(video);
+  kitti.excludes(video);
 }
 
 class CameraProcess {
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::PlumbConfig config;
   Options options;
-  process.declare_options([&options](CLI::App& app) { declare(app, &options); });
+  process.declare_options([&options](plumb::CommandLine& app) { declare(app, &options); });
   std::optional<CameraProcess> camera;
   return process.run(argc, argv, &config, [&] {
     const auto folder = std::filesystem::path(process.config_path()).parent_path();

@@ -1,5 +1,4 @@
 /// GROUND_PLANE, EGO_MOTION, MOUNT, OBJECTS -> can -> CAN interface, trace file
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "modules/chain/plumb_config.hpp"
 #include "platform/can_sinks.hpp"
 #include "platform/clock.hpp"
+#include "platform/command_line.hpp"
 #include "platform/log.hpp"
 #include "platform/overwrite_guard.hpp"
 #include "platform/process.hpp"
@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
       {"can", "Ego motion, ground plane, mount and objects onto a CAN bus, as plumbline.dbc says.",
        plumb::kHealthCan});
   std::string interface, path;
-  process.declare_options([&](CLI::App& app) {
+  process.declare_options([&](plumb::CommandLine& app) {
     app.add_option("--interface", interface, "CAN interface, for example can0");
     app.add_option("--trace", path,
                    "file for every frame, as candump -L writes it; it is continued");

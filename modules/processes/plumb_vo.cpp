@@ -1,5 +1,4 @@
 /// CAMERA, CAMERA_CALIBRATION -> visual odometry -> VO_MOTION
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 
@@ -7,6 +6,7 @@
 #include "modules/chain/plumb_config.hpp"
 #include "modules/vo/vo_node.hpp"
 #include "platform/clock.hpp"
+#include "platform/command_line.hpp"
 #include "platform/process.hpp"
 
 namespace {
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
       {"vo", "Monocular visual odometry: CAMERA -> VO_MOTION", plumb::kHealthVo});
   plumb::PlumbConfig config;
   std::uint64_t seed = 1;
-  process.declare_options([&seed](CLI::App& app) {
+  process.declare_options([&seed](plumb::CommandLine& app) {
     app.add_option("--seed", seed, "seed of the random sampling; default 1");
   });
   std::optional<VoProcess> vo;

@@ -1,8 +1,8 @@
 #include "modules/vo/five_point.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Householder>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 
 namespace plumb::vo {
@@ -65,9 +65,23 @@ Eigen::Matrix<double, 9, 4> null_space(const std::array<RayPair, 5>& pairs) {
       for (int c = 0; c < 3; ++c) A(3 * r + c, i) = b[r] * a[c];
     }
   }
-  const Eigen::HouseholderQR<Eigen::Matrix<double, 9, 5>> qr(A);
+  // These are the steps of Eigen's HouseholderQR for a small matrix. Its own code for large ones
+  // would be compiled, too, which takes seconds.
+  auto QR = A.block(0, 0, 9, 5);
+  Eigen::Matrix<double, 5, 1> scale;
+  Eigen::Matrix<double, 1, 9> workspace;
+  for (int k = 0; k < 5; ++k) {
+    double beta = 0.0;
+    QR.col(k).tail(9 - k).makeHouseholderInPlace(scale[k], beta);
+    QR(k, k) = beta;
+    QR.bottomRightCorner(9 - k, 4 - k)
+        .applyHouseholderOnTheLeft(QR.col(k).tail(8 - k), scale[k], workspace.data());
+  }
   Eigen::Matrix<double, 9, 9> Q = Eigen::Matrix<double, 9, 9>::Identity();
-  Q.applyOnTheLeft(qr.householderQ());
+  for (int k = 4; k >= 0; --k) {
+    Q.bottomRightCorner(9 - k, 9).applyHouseholderOnTheLeft(A.col(k).tail(8 - k), scale[k],
+                                                            workspace.data());
+  }
   return Q.rightCols<4>();
 }
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
-
 namespace plumb {
 namespace {
 
@@ -11,17 +9,17 @@ namespace {
 struct Program {
   Program() {
     app.add_option("LOG", log);
-    app.add_option("--seed", seed)->check(within(1, 9));
-    app.add_option("--start", start)->check(at_least(0));
+    app.add_option("--seed", seed).check(within(1, 9));
+    app.add_option("--start", start).check(at_least(0));
     app.add_option("--count", count);
-    app.add_option("--compress", compress)->check(one_of({"none", "jpeg"}));
+    app.add_option("--compress", compress).check(one_of({"none", "jpeg"}));
     app.add_option("--poses", poses);
   }
   void add_commands() {
-    app.require_subcommand(1);
-    CLI::App* sample = app.add_subcommand("sample", "");
-    sample->add_option("--planes", poses);
-    sample->add_option("--out", out)->required();
+    app.require_subcommand(1, 1);
+    CommandLine sample = app.add_subcommand("sample", "");
+    sample.add_option("--planes", poses);
+    sample.add_option("--out", out).required();
     app.add_subcommand("score", "");
   }
   /// The sentence on stderr; empty when the line is accepted.
@@ -30,14 +28,13 @@ struct Program {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     testing::internal::CaptureStderr();
-    const int code =
-        parse_command_line(app, "plumb-test", static_cast<int>(argv.size()), argv.data());
+    const int code = app.parse(static_cast<int>(argv.size()), argv.data());
     const std::string text = testing::internal::GetCapturedStderr();
     EXPECT_EQ(text.empty() ? -1 : 2, code) << text;
     return text;
   }
 
-  CLI::App app{"a test", "plumb-test"};
+  CommandLine app{"a test", "plumb-test"};
   std::string log, compress, poses, out;
   int seed = 1, start = 0, count = 0;
 };

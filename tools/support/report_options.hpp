@@ -1,10 +1,11 @@
 /// The options --json, --plots and --plot-format that the evaluating tools share.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "platform/command_line.hpp"
 
 namespace plumb {
 
@@ -14,9 +15,9 @@ struct ReportOptions {
   std::string plot_format = "png";
 };
 
-void add_json_option(CLI::App* app, std::string* json);
+void add_json_option(CommandLine* app, std::string* json);
 /// Adds all three options.
-void add_report_options(CLI::App* app, ReportOptions* options);
+void add_report_options(CommandLine* app, ReportOptions* options);
 
 /// Prints "wrote FILE" for each of the files.
 void print_written(const std::vector<std::filesystem::path>& files);

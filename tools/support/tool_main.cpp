@@ -1,6 +1,5 @@
 #include "tools/support/tool_main.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 
@@ -8,9 +7,9 @@
 
 namespace plumb {
 
-int tool_main(CLI::App* app, int argc, char** argv, const std::function<int()>& run) {
-  const std::string program = app->get_name();
-  const int done = parse_command_line(*app, program.c_str(), argc, argv);
+int tool_main(CommandLine* app, int argc, char** argv, const std::function<int()>& run) {
+  const std::string program = app->name();
+  const int done = app->parse(argc, argv);
   if (done >= 0) return done;
   try {
     return run();

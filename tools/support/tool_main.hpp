@@ -2,9 +2,9 @@
 /// error.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <functional>
 
+#include "platform/command_line.hpp"
 #include "platform/exit_code.hpp"
 
 namespace plumb {
@@ -13,6 +13,6 @@ namespace plumb {
 /// what `run` returned, or 2 after printing one sentence to stderr for wrong options and for any
 /// std::exception, which the tools throw for wrong input (InputError) and files that cannot be read
 /// or written (LogError).
-int tool_main(CLI::App* app, int argc, char** argv, const std::function<int()>& run);
+int tool_main(CommandLine* app, int argc, char** argv, const std::function<int()>& run);
 
 }  // namespace plumb

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/command_line.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/tool_main.hpp"
 #include "tools/synth/options.hpp"
@@ -54,18 +55,19 @@ int render(plumb::synth::Options& options) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  CLI::App app{"Renders drives with exact truth, in KITTI odometry layout", "plumb-synth"};
+  plumb::CommandLine app{"Renders drives with exact truth, in KITTI odometry layout",
+                         "plumb-synth"};
   plumb::synth::Options options;
   bool list = false;
   app.add_flag("--list-routes", list, "list the built-in routes, then exit");
   plumb::synth::declare(app, options);
   std::vector<std::string> folders;
-  CLI::App* stats = app.add_subcommand(
+  plumb::CommandLine stats = app.add_subcommand(
       "stats",
       "print a table of how drives look to an estimator, to compare rendered with real ones");
-  stats->add_option("DIR", folders, "folders in KITTI odometry layout")->required();
+  stats.add_option("DIR", folders, "folders in KITTI odometry layout").required();
   return plumb::tool_main(&app, argc, argv, [&] {
     if (list) return list_routes();
-    return stats->parsed() ? print_stats(folders) : render(options);
+    return stats.parsed() ? print_stats(folders) : render(options);
   });
 }

@@ -44,174 +44,174 @@ std::vector<std::string> route_names() {
   return names;
 }
 
-void declare_drive(CLI::App& app, Options& o) {
+void declare_drive(CommandLine& app, Options& o) {
   SynthConfig& c = o.config;
   app.add_option("--route", c.route, "built-in route (--list-routes)")
-      ->check(one_of(route_names()))
-      ->type_name("NAME")
-      ->capture_default_str();
+      .check(one_of(route_names()))
+      .type_name("NAME")
+      .capture_default_str();
   app.add_option("--poses", c.poses, "KITTI pose file to drive along instead of a route");
   app.add_option("--start", c.first_row, "first row of the pose file")
-      ->check(at_least(0))
-      ->capture_default_str();
+      .check(at_least(0))
+      .capture_default_str();
   app.add_option("--end", c.last_row, "last row of the pose file, -1 = its end")
-      ->capture_default_str();
+      .capture_default_str();
   app.add_option("--source-rate", c.source_rate_hz, "rows per second of the pose file")
-      ->check(within(1.0, 200.0))
-      ->capture_default_str();
+      .check(within(1.0, 200.0))
+      .capture_default_str();
   app.add_option("--frames", c.frames, "frames to render (less when the pose file is shorter)")
-      ->check(within(1, 100000))
-      ->capture_default_str();
+      .check(within(1, 100000))
+      .capture_default_str();
   app.add_option("--rate", c.rate_hz, "frames per second")
-      ->check(within(1.0, 120.0))
-      ->capture_default_str();
-  app.add_option("--seed", c.seed, "seed of everything random")->capture_default_str();
+      .check(within(1.0, 120.0))
+      .capture_default_str();
+  app.add_option("--seed", c.seed, "seed of everything random").capture_default_str();
   app.add_option("--suspension", c.drive.suspension,
                  "scale of the motion on the springs, 0 = rigid")
-      ->check(within(0.0, 5.0))
-      ->capture_default_str();
+      .check(within(0.0, 5.0))
+      .capture_default_str();
   app.add_option("--turntable", c.drive.yaw_rate_rad_s,
                  "added rotation about the camera's vertical, rad/s")
-      ->check(within(-3.0, 3.0))
-      ->capture_default_str();
+      .check(within(-3.0, 3.0))
+      .capture_default_str();
   app.add_option("--turntable-span", o.turntable_span,
                  "FROM:TO in s: turn and turn back in this time only [turn all the time]");
   app.add_option("--bumps", c.bumps, "number of speed bumps")
-      ->check(within(0, 100))
-      ->capture_default_str();
+      .check(within(0, 100))
+      .capture_default_str();
   app.add_flag("--flat", c.flat, "no slopes, no crown: the road is one plane");
   app.add_option("--traffic", c.scene.traffic, "number of moving vehicles")
-      ->check(within(0, 200))
-      ->capture_default_str();
+      .check(within(0, 200))
+      .capture_default_str();
   app.add_option("--lead", c.scene.lead, "vehicle ahead of us")
-      ->check(one_of({"none", "car", "truck"}))
-      ->capture_default_str();
+      .check(one_of({"none", "car", "truck"}))
+      .capture_default_str();
   app.add_option("--lead-gap", c.scene.lead_gap_m, "distance to that vehicle at rest, m")
-      ->check(within(1.0, 100.0))
-      ->capture_default_str();
+      .check(within(1.0, 100.0))
+      .capture_default_str();
   app.add_option("--lead-headway", c.scene.lead_headway_s, "time headway of that vehicle, s")
-      ->check(within(0.0, 5.0))
-      ->capture_default_str();
+      .check(within(0.0, 5.0))
+      .capture_default_str();
 }
 
-void declare_camera(CLI::App& app, Options& o) {
+void declare_camera(CommandLine& app, Options& o) {
   SynthConfig& c = o.config;
-  app.add_option("--size", o.size, "image size")->capture_default_str();
+  app.add_option("--size", o.size, "image size").capture_default_str();
   app.add_option("--focal", o.focal_px, "focal length in pixels, 0 = KITTI's field of view")
-      ->check(within(0.0, 10000.0))
-      ->capture_default_str();
+      .check(within(0.0, 10000.0))
+      .capture_default_str();
   app.add_option("--camera-height", c.drive.mount.height_m,
                  "height of the camera above the road, m")
-      ->check(within(0.3, 4.0))
-      ->capture_default_str();
+      .check(within(0.3, 4.0))
+      .capture_default_str();
   app.add_option("--stated-height", c.stated_height_m,
                  "height that calib.txt claims, m; 0 = the true one")
-      ->check(within(0.0, 4.0))
-      ->capture_default_str();
+      .check(within(0.0, 4.0))
+      .capture_default_str();
   app.add_option("--mount-pitch", o.mount_pitch_deg,
                  "degrees nose down [drawn from the seed, standard deviation 0.5]")
-      ->check(within(-15.0, 15.0));
+      .check(within(-15.0, 15.0));
   app.add_option("--mount-roll", o.mount_roll_deg,
                  "degrees right side down [drawn from the seed, standard deviation 0.5]")
-      ->check(within(-15.0, 15.0));
+      .check(within(-15.0, 15.0));
   app.add_option("--mount-yaw", o.mount_yaw_deg,
                  "degrees to the left [drawn from the seed, standard deviation 0.3]")
-      ->check(within(-15.0, 15.0));
+      .check(within(-15.0, 15.0));
   app.add_option("--knock-at", c.drive.knock.at_s,
                  "time at which the camera is turned on its mount, s; 0 = never")
-      ->check(within(0.0, 10000.0))
-      ->capture_default_str();
+      .check(within(0.0, 10000.0))
+      .capture_default_str();
   app.add_option("--knock-pitch", o.knock_pitch_deg, "angle of that turn, degrees nose down")
-      ->check(within(-15.0, 15.0))
-      ->capture_default_str();
+      .check(within(-15.0, 15.0))
+      .capture_default_str();
   app.add_option("--knock-roll", o.knock_roll_deg, "angle of that turn, degrees right side down")
-      ->check(within(-15.0, 15.0))
-      ->capture_default_str();
+      .check(within(-15.0, 15.0))
+      .capture_default_str();
   app.add_option("--knock-yaw", o.knock_yaw_deg, "angle of that turn, degrees to the left")
-      ->check(within(-15.0, 15.0))
-      ->capture_default_str();
+      .check(within(-15.0, 15.0))
+      .capture_default_str();
 }
 
-void declare_sensor(CLI::App& app, Options& o) {
+void declare_sensor(CommandLine& app, Options& o) {
   SynthConfig& c = o.config;
   app.add_option("--residual-k1", c.render.camera.residual_k1,
                  "radial distortion left in the images, of r^2")
-      ->check(within(-0.1, 0.1))
-      ->capture_default_str();
+      .check(within(-0.1, 0.1))
+      .capture_default_str();
   app.add_option("--residual-k2", c.render.camera.residual_k2, "the same, of r^4")
-      ->check(within(-0.1, 0.1))
-      ->capture_default_str();
+      .check(within(-0.1, 0.1))
+      .capture_default_str();
   app.add_option("--exposure", c.render.exposure_s, "exposure time, s: motion blur")
-      ->check(within(0.0, 0.1))
-      ->capture_default_str();
+      .check(within(0.0, 0.1))
+      .capture_default_str();
   app.add_option("--rolling-shutter", c.render.readout_s, "time from the first row to the last, s")
-      ->check(within(0.0, 0.1))
-      ->capture_default_str();
+      .check(within(0.0, 0.1))
+      .capture_default_str();
   app.add_option("--blur", c.sensor.blur_px, "lens blur, sigma in pixels")
-      ->check(within(0.0, 5.0))
-      ->capture_default_str();
+      .check(within(0.0, 5.0))
+      .capture_default_str();
   app.add_option("--gain", c.sensor.gain, "grey levels per unit of light")
-      ->check(within(1.0, 5000.0))
-      ->capture_default_str();
+      .check(within(1.0, 5000.0))
+      .capture_default_str();
   app.add_option("--noise", c.sensor.read_noise, "read noise, grey levels")
-      ->check(within(0.0, 50.0))
-      ->capture_default_str();
+      .check(within(0.0, 50.0))
+      .capture_default_str();
   app.add_option("--shot-noise", c.sensor.shot_noise, "noise variance per grey level")
-      ->check(within(0.0, 5.0))
-      ->capture_default_str();
+      .check(within(0.0, 5.0))
+      .capture_default_str();
   app.add_option("--vignetting", c.sensor.vignetting, "loss of light in the corners")
-      ->check(within(0.0, 0.9))
-      ->capture_default_str();
+      .check(within(0.0, 0.9))
+      .capture_default_str();
   app.add_option("--exposure-drift", c.sensor.gain_drift,
                  "slow drift of the exposure, standard deviation of its logarithm")
-      ->check(within(0.0, 1.0))
-      ->capture_default_str();
+      .check(within(0.0, 1.0))
+      .capture_default_str();
   app.add_option("--exposure-step", c.sensor.step_factor,
                  "factor by which the exposure jumps back and forth")
-      ->check(within(0.1, 10.0))
-      ->capture_default_str();
+      .check(within(0.1, 10.0))
+      .capture_default_str();
   app.add_option("--exposure-step-every", c.sensor.step_every_s,
                  "s between jumps; 0 = 4 s when --exposure-step is given")
-      ->check(within(0.0, 1000.0));
+      .check(within(0.0, 1000.0));
   app.add_option("--samples", c.render.edge_samples,
                  "extra rays per pixel where the picture changes")
-      ->check(within(0, 64))
-      ->capture_default_str();
+      .check(within(0, 64))
+      .capture_default_str();
 }
 
-void declare_weather(CLI::App& app, Options& o) {
+void declare_weather(CommandLine& app, Options& o) {
   SynthConfig& c = o.config;
   app.add_option("--sun-elevation", o.sun_deg, "elevation of the sun, degrees")
-      ->check(within(2.0, 90.0))
-      ->capture_default_str();
+      .check(within(2.0, 90.0))
+      .capture_default_str();
   app.add_option("--sun-azimuth", o.sun_azimuth_deg,
                  "degrees to the left of the first heading [drawn from the seed]")
-      ->check(within(-360.0, 360.0));
+      .check(within(-360.0, 360.0));
   app.add_flag("--overcast", o.overcast, "no direct sun");
   app.add_option("--road-contrast", c.ground.road_contrast, "scale of the contrast of the asphalt")
-      ->check(within(0.0, 3.0))
-      ->capture_default_str();
+      .check(within(0.0, 3.0))
+      .capture_default_str();
   app.add_option("--marking-wear", c.ground.marking_wear, "0 fresh, 1 nearly gone")
-      ->check(within(0.0, 1.5))
-      ->capture_default_str();
+      .check(within(0.0, 1.5))
+      .capture_default_str();
   app.add_option("--wet", c.ground.wetness, "0 dry .. 1 covered by water")
-      ->check(within(0.0, 1.0))
-      ->capture_default_str();
+      .check(within(0.0, 1.0))
+      .capture_default_str();
   app.add_option("--haze", c.light.haze_m, "distance over which contrast falls to 1/e, m")
-      ->check(within(10.0, 1e6))
-      ->capture_default_str();
+      .check(within(10.0, 1e6))
+      .capture_default_str();
   app.add_option("--tunnel", o.tunnel, "FROM:TO in s: a tunnel with a tenth of the light");
   app.add_option("--covered", o.covered, "FROM:TO in s: the lens is covered");
 }
 
 }  // namespace
 
-void declare(CLI::App& app, Options& o) {
+void declare(CommandLine& app, Options& o) {
   o.config.sensor.step_factor = 1.0;
   app.add_option("--out", o.config.out, "folder to write, in KITTI odometry layout");
   app.add_option("--threads", o.threads, "workers, 0 = one per core")
-      ->check(within(0, 256))
-      ->capture_default_str();
+      .check(within(0, 256))
+      .capture_default_str();
   app.add_flag("--force", o.force,
                "write into a folder that is not empty, and replace a drive there");
   app.add_flag("--quiet", o.quiet, "print nothing");

@@ -1,9 +1,9 @@
 /// The command line of plumb-synth.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "platform/command_line.hpp"
 #include "tools/synth/synth_config.hpp"
 
 namespace plumb::synth {
@@ -30,7 +30,7 @@ struct Options {
 };
 
 /// Declares every option of rendering on `app`.
-void declare(CLI::App& app, Options& options);
+void declare(CommandLine& app, Options& options);
 
 /// Fills what depends on other options. Throws UsageError in one sentence.
 void complete(Options& options);

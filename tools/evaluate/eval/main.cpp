@@ -1,7 +1,6 @@
 /// plumb-eval: measures how far an estimated trajectory, estimated ground planes or placed objects
 /// are from the truth.
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
 
@@ -104,7 +103,7 @@ int evaluate_planes(const Arguments& arguments) {
   return 0;
 }
 
-CLI::App* add_options(CLI::App* app, Arguments* arguments) {
+CommandLine add_options(CommandLine* app, Arguments* arguments) {
   app->footer(kFooter);
   app->require_subcommand(0, 1);
   app->add_option("GT", arguments->gt, "true poses, 12 numbers per row");
@@ -113,24 +112,23 @@ CLI::App* add_options(CLI::App* app, Arguments* arguments) {
   app->add_option("--est-dir", arguments->est_dir, "folder of estimates under the same names");
   app->add_option("--lengths", arguments->lengths,
                   "segment lengths [m]: new (100,200..800), old (5,10,50,100,150..400), or a list")
-      ->capture_default_str();
+      .capture_default_str();
   app->add_option("--step", arguments->options.metric.step_frames,
                   "frames from one segment's start to the next one's")
-      ->check(within(1, 1000))
-      ->capture_default_str();
+      .check(within(1, 1000))
+      .capture_default_str();
   app->add_option("--scale-window", arguments->options.scale_window_m,
                   "true path per window of the scale ratio [m]")
-      ->check(within(1.0, 1000.0))
-      ->capture_default_str();
+      .check(within(1.0, 1000.0))
+      .capture_default_str();
   app->add_flag("--allow-partial", arguments->options.allow_partial,
                 "compare the rows both files have when their number differs");
   add_report_options(app, &arguments->report);
-  CLI::App* plane = app->add_subcommand("plane", "compare ground planes instead");
-  plane->add_option("GT_PLANE", arguments->plane_gt, "rows: frame nx ny nz height_m ...")
-      ->required();
-  plane->add_option("EST_CSV", arguments->plane_est, "what plumb-replay wrote with --csv")
-      ->required();
-  add_report_options(plane, &arguments->report);
+  CommandLine plane = app->add_subcommand("plane", "compare ground planes instead");
+  plane.add_option("GT_PLANE", arguments->plane_gt, "rows: frame nx ny nz height_m ...").required();
+  plane.add_option("EST_CSV", arguments->plane_est, "what plumb-replay wrote with --csv")
+      .required();
+  add_report_options(&plane, &arguments->report);
   return plane;
 }
 
@@ -139,17 +137,17 @@ CLI::App* add_options(CLI::App* app, Arguments* arguments) {
 
 int main(int argc, char** argv) {
   plumb::Arguments arguments;
-  CLI::App app("Measures errors of trajectories, ground planes and objects against the truth",
-               "plumb-eval");
-  const CLI::App* plane = plumb::add_options(&app, &arguments);
+  plumb::CommandLine app(
+      "Measures errors of trajectories, ground planes and objects against the truth", "plumb-eval");
+  const plumb::CommandLine plane = plumb::add_options(&app, &arguments);
   plumb::ObjectsCommand objects_command;
-  const CLI::App* objects = plumb::add_objects_command(&app, &objects_command);
+  const plumb::CommandLine objects = plumb::add_objects_command(&app, &objects_command);
   plumb::PlacementCommand placement_command;
-  const CLI::App* placed = plumb::add_placement_command(&app, &placement_command);
+  const plumb::CommandLine placed = plumb::add_placement_command(&app, &placement_command);
   return plumb::tool_main(&app, argc, argv, [&] {
-    if (placed->parsed()) return plumb::run_placement_command(placement_command);
-    if (objects->parsed()) return plumb::run_objects_command(objects_command);
-    return plane->parsed() ? plumb::evaluate_planes(arguments)
-                           : plumb::evaluate_trajectories(arguments);
+    if (placed.parsed()) return plumb::run_placement_command(placement_command);
+    if (objects.parsed()) return plumb::run_objects_command(objects_command);
+    return plane.parsed() ? plumb::evaluate_planes(arguments)
+                          : plumb::evaluate_trajectories(arguments);
   });
 }

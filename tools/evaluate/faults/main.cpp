@@ -1,7 +1,6 @@
 /// plumb-faults: puts faults of camera, clock and source into recorded drives and reports what the
 /// chain makes of them.
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -68,17 +67,17 @@ int main(int argc, char** argv) {
   plumb::Arguments arguments;
   std::vector<std::string> names;
   for (const plumb::Fault& fault : plumb::all_faults()) names.push_back(fault.name);
-  CLI::App app("Puts faults into recorded drives and reports what the chain makes of them",
-               "plumb-faults");
+  plumb::CommandLine app(
+      "Puts faults into recorded drives and reports what the chain makes of them", "plumb-faults");
   app.footer(plumb::kFooter);
-  app.add_option("LOG", arguments.logs, "logs with true poses")->required();
+  app.add_option("LOG", arguments.logs, "logs with true poses").required();
   app.add_option("--fault", arguments.faults, "only these rows of the table")
-      ->check(plumb::one_of(names));
+      .check(plumb::one_of(names));
   app.add_option("--config", arguments.config, "TOML file; every key is optional");
   app.add_flag("--by-drive", arguments.by_drive, "one row for each drive instead of one for all");
   app.add_option("--most-wrong", arguments.most_wrong_ratio,
                  "share of the valid results that may be wrong")
-      ->check(plumb::within(0.0, 1.0))
-      ->capture_default_str();
+      .check(plumb::within(0.0, 1.0))
+      .capture_default_str();
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
 }

@@ -1,6 +1,5 @@
 #include "tools/evaluate/objects_eval/objects_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -65,22 +64,22 @@ void write_json(const ObjectsCommand& command, const std::vector<SequenceDepth>&
 
 }  // namespace
 
-CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command) {
-  CLI::App* objects = app->add_subcommand(
+CommandLine add_objects_command(CommandLine* app, ObjectsCommand* command) {
+  CommandLine objects = app->add_subcommand(
       "objects",
       "measure how far off objects are placed on KITTI tracking sequences, from boxes alone");
-  objects->add_option("ROOT", command->root, "folder with calib/ and label_02/")->required();
-  objects->add_option("--boxes", command->boxes, "folder under ROOT with the boxes to use")
-      ->capture_default_str();
+  objects.add_option("ROOT", command->root, "folder with calib/ and label_02/").required();
+  objects.add_option("--boxes", command->boxes, "folder under ROOT with the boxes to use")
+      .capture_default_str();
   objects
-      ->add_option("--sequence", command->sequences, "evaluate only this sequence; may be repeated")
-      ->type_name("NNNN");
-  objects->add_option("--camera-height", command->camera_height_m, "above the road [m]")
-      ->check(within(0.3, 4.0))
-      ->capture_default_str();
-  objects->add_option("--config", command->config, "settings, keys detections.* and objects.*")
-      ->type_name("FILE");
-  add_json_option(objects, &command->json);
+      .add_option("--sequence", command->sequences, "evaluate only this sequence; may be repeated")
+      .type_name("NNNN");
+  objects.add_option("--camera-height", command->camera_height_m, "above the road [m]")
+      .check(within(0.3, 4.0))
+      .capture_default_str();
+  objects.add_option("--config", command->config, "settings, keys detections.* and objects.*")
+      .type_name("FILE");
+  add_json_option(&objects, &command->json);
   return objects;
 }
 

@@ -2,9 +2,10 @@
 /// sequences.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
+
+#include "platform/command_line.hpp"
 
 namespace plumb {
 
@@ -18,7 +19,7 @@ struct ObjectsCommand {
 };
 
 /// Adds the subcommand; its options fill `command`.
-CLI::App* add_objects_command(CLI::App* app, ObjectsCommand* command);
+CommandLine add_objects_command(CommandLine* app, ObjectsCommand* command);
 
 /// Prints the table and writes the JSON. Returns the exit code; throws InputError and ConfigError.
 int run_objects_command(const ObjectsCommand& command);

@@ -1,6 +1,5 @@
 #include "tools/evaluate/objects_eval/placement_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <utility>
@@ -54,25 +53,24 @@ void refuse_overwriting(const PlacementCommand& command) {
 
 }  // namespace
 
-CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command) {
-  CLI::App* placed = app->add_subcommand("placed",
-                                         "measure how far off the whole chain placed objects: "
-                                         "compare plumb-replay's tables with labels");
+CommandLine add_placement_command(CommandLine* app, PlacementCommand* command) {
+  CommandLine placed = app->add_subcommand("placed",
+                                           "measure how far off the whole chain placed objects: "
+                                           "compare plumb-replay's tables with labels");
   placed
-      ->add_option(
-          "DRIVE FRAMES OBJECTS", command->files,
-          "the drive's folder (images, calib.txt, label_02.txt, perhaps poses.txt), what "
-          "plumb-replay wrote for it with --csv and with --objects; more drives may follow")
-      ->type_name("")
-      ->required();
-  placed->add_option("--boxes", command->boxes, "file in DRIVE with the boxes that were replayed")
-      ->capture_default_str();
-  placed->add_option("--classes", command->classes, "classes of the labels to take")
-      ->delimiter(',')
-      ->check(one_of({"car", "van", "truck", "bus"}))
-      ->capture_default_str();
-  placed->add_option("--config", command->config, "settings of the replay")->type_name("FILE");
-  add_report_options(placed, &command->report);
+      .add_option("DRIVE FRAMES OBJECTS", command->files,
+                  "the drive's folder (images, calib.txt, label_02.txt, perhaps poses.txt), what "
+                  "plumb-replay wrote for it with --csv and with --objects; more drives may follow")
+      .type_name("")
+      .required();
+  placed.add_option("--boxes", command->boxes, "file in DRIVE with the boxes that were replayed")
+      .capture_default_str();
+  placed.add_option("--classes", command->classes, "classes of the labels to take")
+      .delimiter(',')
+      .check(one_of({"car", "van", "truck", "bus"}))
+      .capture_default_str();
+  placed.add_option("--config", command->config, "settings of the replay").type_name("FILE");
+  add_report_options(&placed, &command->report);
   return placed;
 }
 

@@ -1,10 +1,10 @@
 /// The subcommand `plumb-eval placed` measures how far off the whole chain placed objects.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
+#include "platform/command_line.hpp"
 #include "tools/support/report_options.hpp"
 
 namespace plumb {
@@ -18,7 +18,7 @@ struct PlacementCommand {
 };
 
 /// Adds the subcommand; its options fill `command`.
-CLI::App* add_placement_command(CLI::App* app, PlacementCommand* command);
+CommandLine add_placement_command(CommandLine* app, PlacementCommand* command);
 
 /// Prints the table and writes JSON and plots. Returns the exit code; throws InputError and
 /// ConfigError.

@@ -1,6 +1,5 @@
 /// plumb-trust: asks whether speed and scale are known as well as the chain says.
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -82,11 +81,12 @@ int main(int argc, char** argv) {
   plumb::Arguments arguments;
   std::vector<std::string> names;
   for (const plumb::TrustRow& row : plumb::all_trust_rows()) names.push_back(row.name);
-  CLI::App app("Asks whether speed and scale are known as well as the chain says", "plumb-trust");
+  plumb::CommandLine app("Asks whether speed and scale are known as well as the chain says",
+                         "plumb-trust");
   app.footer(plumb::kFooter);
-  app.add_option("LOG", arguments.logs, "logs with true poses")->required();
+  app.add_option("LOG", arguments.logs, "logs with true poses").required();
   app.add_option("--row", arguments.rows, "only these rows of the table")
-      ->check(plumb::one_of(names));
+      .check(plumb::one_of(names));
   app.add_option("--csv", arguments.csv, "table to write, one row per image");
   app.add_option("--config", arguments.config, "TOML file; every key is optional");
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });

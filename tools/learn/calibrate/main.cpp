@@ -1,7 +1,6 @@
 /// plumb-calibrate: finds lens terms and mount from ordinary drives with turns, and reports what
 /// could not be observed.
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -95,21 +94,21 @@ int run(const Arguments& arguments) {
 }  // namespace plumb
 
 int main(int argc, char** argv) {
-  CLI::App app("Finds the lens terms and the mount of a camera rig from ordinary drives",
-               "plumb-calibrate");
+  plumb::CommandLine app("Finds the lens terms and the mount of a camera rig from ordinary drives",
+                         "plumb-calibrate");
   app.footer(plumb::kFooter);
   plumb::Arguments arguments;
-  app.add_option("LOG", arguments.logs, "logs of one rig")->required();
+  app.add_option("LOG", arguments.logs, "logs of one rig").required();
   app.add_option("--parameters", arguments.parameters,
                  "parameters to find: some of k1, k2, focal, row, with commas between them")
-      ->capture_default_str();
+      .capture_default_str();
   app.add_option("--out", arguments.out, "write the found values as a configuration to FILE")
-      ->type_name("FILE");
+      .type_name("FILE");
   plumb::add_json_option(&app, &arguments.json);
   app.add_option("--config", arguments.config, "TOML configuration");
-  app.add_option("--seed", arguments.seed, "seed of VO's random sampling")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "seed of VO's random sampling").capture_default_str();
   app.add_option("--max-images", arguments.most_images, "use at most so many images of every log")
-      ->check(plumb::within(30, 100000))
-      ->capture_default_str();
+      .check(plumb::within(30, 100000))
+      .capture_default_str();
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
 }

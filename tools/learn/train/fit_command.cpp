@@ -1,7 +1,7 @@
 #include "tools/learn/train/fit_command.hpp"
+#include "platform/command_line.hpp"
 #include "platform/overwrite_guard.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
 #include <fstream>
@@ -87,17 +87,17 @@ void fit_learned(const FitCommand& command, const std::vector<DriveSamples>& all
 
 }  // namespace
 
-CLI::App* add_fit_command(CLI::App* app, FitCommand* command) {
-  CLI::App* sub = app->add_subcommand("fit", "fit a model file to files of samples");
-  sub->add_option("SAMPLES", command->samples, "files that plumb-train sample wrote")->required();
-  sub->add_option("--out", command->out, "model file to write")->required();
-  sub->add_option("--start", command->start,
-                  "model for everything that these samples do not determine [the built-in one]");
-  sub->add_option("--hold-out", command->hold_out, "drive to score but not to fit; may be repeated")
-      ->take_all();
-  sub->add_flag("--plane-only", command->plane_only,
-                "keep the models of the cues and fit what the reported plane adds");
-  add_report_options(sub, &command->report);
+CommandLine add_fit_command(CommandLine* app, FitCommand* command) {
+  CommandLine sub = app->add_subcommand("fit", "fit a model file to files of samples");
+  sub.add_option("SAMPLES", command->samples, "files that plumb-train sample wrote").required();
+  sub.add_option("--out", command->out, "model file to write").required();
+  sub.add_option("--start", command->start,
+                 "model for everything that these samples do not determine [the built-in one]");
+  sub.add_option("--hold-out", command->hold_out, "drive to score but not to fit; may be repeated")
+      .take_all();
+  sub.add_flag("--plane-only", command->plane_only,
+               "keep the models of the cues and fit what the reported plane adds");
+  add_report_options(&sub, &command->report);
   return sub;
 }
 
@@ -133,11 +133,11 @@ int run_fit_command(const FitCommand& command) {
   return 0;
 }
 
-CLI::App* add_score_command(CLI::App* app, ScoreCommand* command) {
-  CLI::App* sub =
+CommandLine add_score_command(CommandLine* app, ScoreCommand* command) {
+  CommandLine sub =
       app->add_subcommand("score", "compare the reported values in samples with the truth");
-  sub->add_option("SAMPLES", command->samples, "files that plumb-train sample wrote")->required();
-  add_json_option(sub, &command->json);
+  sub.add_option("SAMPLES", command->samples, "files that plumb-train sample wrote").required();
+  add_json_option(&sub, &command->json);
   return sub;
 }
 

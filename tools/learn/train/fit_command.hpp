@@ -1,10 +1,10 @@
 /// plumb-train fit: turns files of samples into one model file, scores and pictures.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
+#include "platform/command_line.hpp"
 #include "tools/support/report_options.hpp"
 
 namespace plumb {
@@ -18,7 +18,7 @@ struct FitCommand {
   std::string command_line;  ///< for the model's origin
 };
 
-CLI::App* add_fit_command(CLI::App* app, FitCommand* command);
+CommandLine add_fit_command(CommandLine* app, FitCommand* command);
 int run_fit_command(const FitCommand& command);
 
 /// plumb-train score: compares the reported values in samples with the truth.
@@ -27,7 +27,7 @@ struct ScoreCommand {
   std::string json;
 };
 
-CLI::App* add_score_command(CLI::App* app, ScoreCommand* command);
+CommandLine add_score_command(CommandLine* app, ScoreCommand* command);
 int run_score_command(const ScoreCommand& command);
 
 }  // namespace plumb

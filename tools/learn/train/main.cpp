@@ -1,9 +1,9 @@
 /// plumb-train: turns drives with truth into samples, and samples into the model that tells how far
 /// each cue can be trusted.
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "platform/command_line.hpp"
 #include "tools/learn/train/fit_command.hpp"
 #include "tools/learn/train/sample_command.hpp"
 #include "tools/support/tool_main.hpp"
@@ -30,19 +30,20 @@ std::string joined(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Learns from drives with truth how far each cue can be trusted", "plumb-train");
+  plumb::CommandLine app("Learns from drives with truth how far each cue can be trusted",
+                         "plumb-train");
   app.footer(kFooter);
-  app.require_subcommand(1);
+  app.require_subcommand(1, 1);
   plumb::SampleCommand sample_command;
   plumb::FitCommand fit_command;
   plumb::ScoreCommand score_command;
-  const CLI::App* sample = plumb::add_sample_command(&app, &sample_command);
-  const CLI::App* fit = plumb::add_fit_command(&app, &fit_command);
+  const plumb::CommandLine sample = plumb::add_sample_command(&app, &sample_command);
+  const plumb::CommandLine fit = plumb::add_fit_command(&app, &fit_command);
   plumb::add_score_command(&app, &score_command);
   fit_command.command_line = joined(argc, argv);
   return plumb::tool_main(&app, argc, argv, [&] {
-    if (sample->parsed()) return plumb::run_sample_command(sample_command);
-    if (fit->parsed()) return plumb::run_fit_command(fit_command);
+    if (sample.parsed()) return plumb::run_sample_command(sample_command);
+    if (fit.parsed()) return plumb::run_fit_command(fit_command);
     return plumb::run_score_command(score_command);
   });
 }

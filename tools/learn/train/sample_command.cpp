@@ -1,6 +1,5 @@
 #include "tools/learn/train/sample_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 
@@ -8,6 +7,7 @@
 #include "modules/chain/chain.hpp"
 #include "modules/datasets/text.hpp"
 #include "modules/vo/vo_wire.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
 #include "platform/overwrite_guard.hpp"
 #include "tools/learn/train/sample_file.hpp"
@@ -44,17 +44,17 @@ bool run_log(const SampleCommand& command, const PlumbConfig& config, Sampler* s
 
 }  // namespace
 
-CLI::App* add_sample_command(CLI::App* app, SampleCommand* command) {
-  CLI::App* sub = app->add_subcommand("sample", "turn one log with truth into a file of samples");
-  sub->add_option("LOG", command->log, "log with CAMERA, CAMERA_CALIBRATION and GROUND_TRUTH")
-      ->required();
-  sub->add_option("--out", command->out, "file of samples to write")->required();
-  sub->add_option("--planes", command->planes,
-                  "true planes, rows 'frame nx ny nz height_m ...' [those in the log]");
-  sub->add_option("--drive", command->drive, "name of the drive [the log's]");
-  sub->add_option("--config", command->config, "TOML configuration");
-  sub->add_option("--seed", command->seed, "seed of the random sampling")->capture_default_str();
-  sub->add_flag("--again", command->again, "replace a file that is newer than the log");
+CommandLine add_sample_command(CommandLine* app, SampleCommand* command) {
+  CommandLine sub = app->add_subcommand("sample", "turn one log with truth into a file of samples");
+  sub.add_option("LOG", command->log, "log with CAMERA, CAMERA_CALIBRATION and GROUND_TRUTH")
+      .required();
+  sub.add_option("--out", command->out, "file of samples to write").required();
+  sub.add_option("--planes", command->planes,
+                 "true planes, rows 'frame nx ny nz height_m ...' [those in the log]");
+  sub.add_option("--drive", command->drive, "name of the drive [the log's]");
+  sub.add_option("--config", command->config, "TOML configuration");
+  sub.add_option("--seed", command->seed, "seed of the random sampling").capture_default_str();
+  sub.add_flag("--again", command->again, "replace a file that is newer than the log");
   return sub;
 }
 

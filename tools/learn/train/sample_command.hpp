@@ -2,9 +2,10 @@
 /// once.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <string>
+
+#include "platform/command_line.hpp"
 
 namespace plumb {
 
@@ -14,7 +15,7 @@ struct SampleCommand {
   bool again = false;
 };
 
-CLI::App* add_sample_command(CLI::App* app, SampleCommand* command);
+CommandLine add_sample_command(CommandLine* app, SampleCommand* command);
 int run_sample_command(const SampleCommand& command);
 
 }  // namespace plumb

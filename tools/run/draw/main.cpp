@@ -1,6 +1,5 @@
 /// plumb-draw: draws plumb-replay's results onto the images of a log.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -137,18 +136,18 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   plumb::Options options;
-  CLI::App app("Draws road grid, horizon, objects and figures onto the frames of a log",
-               "plumb-draw");
-  app.add_option("LOG", options.log, "LCM log with the images")->required();
-  app.add_option("CSV", options.csv, "what plumb-replay --csv wrote for it")->required();
+  plumb::CommandLine app("Draws road grid, horizon, objects and figures onto the frames of a log",
+                         "plumb-draw");
+  app.add_option("LOG", options.log, "LCM log with the images").required();
+  app.add_option("CSV", options.csv, "what plumb-replay --csv wrote for it").required();
   app.add_option("--objects", options.objects, "what plumb-replay --objects wrote for it");
-  app.add_option("--out", options.out, "folder for the pictures")->required();
+  app.add_option("--out", options.out, "folder for the pictures").required();
   app.add_option("--frames", options.frames, "sequence numbers to draw [spread over the drive]")
-      ->delimiter(',');
+      .delimiter(',');
   app.add_option("--num-pictures", options.num_pictures,
                  "number of pictures when --frames is not given")
-      ->check(plumb::within(1, 1000))
-      ->capture_default_str();
+      .check(plumb::within(1, 1000))
+      .capture_default_str();
   app.add_option("--video", options.video, "also draw every frame into this AVI file");
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(options); });
 }

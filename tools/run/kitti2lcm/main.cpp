@@ -1,6 +1,5 @@
 /// plumb-kitti2lcm: converts a KITTI sequence to an LCM log for lcm-logplayer and plumb-replay.
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
 
@@ -23,19 +22,19 @@ Examples
   plumb-kitti2lcm 2011_09_26/2011_09_26_drive_0009_sync --out 0009.lcm --camera-height 1.65
   plumb-kitti2lcm dataset/sequences/00 --camera 2 --start 100 --end 299 --compress jpeg --out part.lcm)";
 
-void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::ConvertOptions* convert,
-                 std::string* compress) {
+void add_options(plumb::CommandLine* app, plumb::SequenceOptions* sequence,
+                 plumb::ConvertOptions* convert, std::string* compress) {
   app->footer(kFooter);
-  app->add_option("SEQ_DIR", sequence->folder, "folder of the sequence")->required();
-  app->add_option("--out", convert->out, "log to write")->required();
+  app->add_option("SEQ_DIR", sequence->folder, "folder of the sequence").required();
+  app->add_option("--out", convert->out, "log to write").required();
   app->add_option("--camera", sequence->camera,
                   "0 left grey, 1 right grey, 2 left colour, 3 right colour")
-      ->check(plumb::within(0, 3))
-      ->capture_default_str();
+      .check(plumb::within(0, 3))
+      .capture_default_str();
   app->add_option("--compress", *compress,
                   "none: plain pixels; jpeg: quality 95, about a quarter of the size")
-      ->check(plumb::one_of({"none", "jpeg"}))
-      ->capture_default_str();
+      .check(plumb::one_of({"none", "jpeg"}))
+      .capture_default_str();
   app->add_option("--poses", sequence->poses,
                   "true poses [SEQ_DIR/poses.txt, or a raw drive's oxts]");
   app->add_option("--planes", sequence->planes,
@@ -45,21 +44,21 @@ void add_options(CLI::App* app, plumb::SequenceOptions* sequence, plumb::Convert
   app->add_option(
          "--residual-k1", sequence->residual_k1,
          "radial term of r^2 left in the rectified images [calib.txt's residual_k1, else 0.0256]")
-      ->check(plumb::within(-0.2, 0.2));
+      .check(plumb::within(-0.2, 0.2));
   app->add_option(
          "--residual-k2", sequence->residual_k2,
          "radial term of r^4 [calib.txt's residual_k2, else -0.0076; 0 beside a stated k1]")
-      ->check(plumb::within(-0.2, 0.2));
+      .check(plumb::within(-0.2, 0.2));
   app->add_option(
          "--camera-height", sequence->camera_height_m,
          "optical centre above the road [calib.txt's camera_height_m, else the configuration's]")
-      ->check(plumb::within(0.3, 4.0));
+      .check(plumb::within(0.3, 4.0));
   app->add_option(
          "--readout", sequence->readout_s,
          "readout time of a rolling shutter, first row to last, s [calib.txt's readout_s, else 0]")
-      ->check(plumb::within(0.0, 0.1));
-  app->add_option("--start", sequence->start, "first frame number")->check(plumb::at_least(0));
-  app->add_option("--end", sequence->end, "last frame number")->check(plumb::at_least(0));
+      .check(plumb::within(0.0, 0.1));
+  app->add_option("--start", sequence->start, "first frame number").check(plumb::at_least(0));
+  app->add_option("--end", sequence->end, "last frame number").check(plumb::at_least(0));
 }
 
 void refuse_overwriting(const plumb::SequenceOptions& sequence,
@@ -102,7 +101,7 @@ int main(int argc, char** argv) {
   plumb::SequenceOptions sequence;
   plumb::ConvertOptions convert;
   std::string compress = "none";
-  CLI::App app("Converts a KITTI sequence to an LCM log", "plumb-kitti2lcm");
+  plumb::CommandLine app("Converts a KITTI sequence to an LCM log", "plumb-kitti2lcm");
   add_options(&app, &sequence, &convert, &compress);
   return plumb::tool_main(&app, argc, argv, [&] {
     convert.jpeg = compress == "jpeg";

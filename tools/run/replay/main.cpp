@@ -1,7 +1,6 @@
 /// plumb-replay: runs a log through vo, ground, objects and can in one process and writes poses, a
 /// table of frames, a table of objects and a CAN trace.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "modules/datasets/text.hpp"
 #include "platform/can_trace.hpp"
 #include "platform/clock.hpp"
+#include "platform/command_line.hpp"
 #include "platform/config.hpp"
 #include "platform/log.hpp"
 #include "platform/log_file.hpp"
@@ -180,16 +180,16 @@ int run(const Arguments& arguments) {
   return report_trouble(arguments.log, reader, replay) ? kExitRefused : 0;
 }
 
-void add_options(CLI::App* app, Arguments* arguments) {
+void add_options(CommandLine* app, Arguments* arguments) {
   app->footer(kFooter);
-  app->add_option("LOG", arguments->log, "LCM log with CAMERA and CAMERA_CALIBRATION")->required();
+  app->add_option("LOG", arguments->log, "LCM log with CAMERA and CAMERA_CALIBRATION").required();
   app->add_option("--poses", arguments->poses, "KITTI pose file to write, one row per image");
   app->add_option("--csv", arguments->csv, "table to write, one row per image");
   app->add_option("--objects", arguments->objects,
                   "table to write, one row per object and image on DETECTIONS");
   app->add_option("--can", arguments->can, "CAN trace to write, as candump -L");
   app->add_option("--config", arguments->config, "TOML configuration");
-  app->add_option("--seed", arguments->seed, "seed of the random sampling")->capture_default_str();
+  app->add_option("--seed", arguments->seed, "seed of the random sampling").capture_default_str();
   app->add_flag("--no-times", arguments->no_times, "leave the stage times out of the CSV");
 }
 
@@ -199,7 +199,8 @@ void add_options(CLI::App* app, Arguments* arguments) {
 int main(int argc, char** argv) {
   plumb::set_log_name("plumb-replay");
   plumb::Arguments arguments;
-  CLI::App app("Runs a log through vo, ground, objects and can in one process", "plumb-replay");
+  plumb::CommandLine app("Runs a log through vo, ground, objects and can in one process",
+                         "plumb-replay");
   plumb::add_options(&app, &arguments);
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(arguments); });
 }
