@@ -96,6 +96,7 @@ struct GroundEstimator::Impl {
   EgoMotion ego;
   UnitWatch unit_watch;
   std::int32_t scale_epoch = 0;
+  bool unit_proven = true;
   StartTrial trial;
   GroundOutput out;
   CueDiagnostics diagnostics;
@@ -158,8 +159,10 @@ void GroundEstimator::Impl::watch_unit(const VoOutput& vo, CueFrame* frame) {
   }
   const double metres_per_vo = filter.started() ? camera_height.height_m / filter.height() : 0.0;
   const UnitVerdict verdict = unit_watch.watch(vo, metres_per_vo);
+  unit_proven = verdict != UnitVerdict::kUnproven;
   if (verdict == UnitVerdict::kSteady) return;
   frame->chord.valid = false;
+  if (verdict == UnitVerdict::kUnproven) return;
   if (verdict == UnitVerdict::kJump) drift.change_unit();
   filter.reset();
 }
@@ -338,7 +341,7 @@ ScaleEstimate GroundEstimator::Impl::scale(const VoOutput& vo, const FramePrior&
   const double doubt = config.filter.start_doubt_std / std::max(1, trial.num_used);
   scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt;
   const bool confirmed = !trial.open || trial.num_used >= config.filter.start_confirmations;
-  scale.known = confirmed && scale.var <= square(config.ego.most_log_scale_std);
+  scale.known = unit_proven && confirmed && scale.var <= square(config.ego.most_log_scale_std);
   if (prior.ln_height_var > 0.0) {
     scale.kept_ratio = std::clamp(scale.var / (prior.ln_height_var + constant_var), 0.0, 1.0);
   }

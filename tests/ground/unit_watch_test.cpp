@@ -19,6 +19,7 @@ struct Watch {
     vo.T_prev_cam.t = Eigen::Vector3d(0.0, 0.0, speed_m_s * dt_s / kWatchedScale);
     vo.cov_prev_cam(2, 2) = std_m_s * dt_s / kWatchedScale * std_m_s * dt_s / kWatchedScale;
     vo.scale_carry_std = carry_std;
+    vo.reason = reason;
     return watch.watch(vo, kWatchedScale);
   }
   UnitVerdict see_nothing() {
@@ -33,6 +34,7 @@ struct Watch {
   std::int64_t seq = 0;
   std::int64_t capture_us = 1'000'000;
   double carry_std = 0.0;
+  VoReason reason = VoReason::kNone;
 };
 
 TEST(UnitWatch, BelievesWhatAVehicleCanDo) {
@@ -68,6 +70,20 @@ TEST(UnitWatch, SettlesThoughEveryOtherImageMeasuresNothing) {
     verdict = rig.see(18.0);
   }
   EXPECT_EQ(verdict, UnitVerdict::kSteady);
+}
+
+TEST(UnitWatch, AStepOverAGapOfMissingImagesIsProvenByTheNextOne) {
+  Watch rig;
+  for (int k = 0; k < 5; ++k) rig.see(10.0);
+  rig.reason = VoReason::kFramesMissing;
+  EXPECT_EQ(rig.see(9.0, 0.3), UnitVerdict::kSteady) << "a short one";
+  EXPECT_EQ(rig.see(6.3, 1.2), UnitVerdict::kUnproven);
+  rig.reason = VoReason::kNone;
+  EXPECT_EQ(rig.see(6.4), UnitVerdict::kSteady);
+  rig.reason = VoReason::kFramesMissing;
+  EXPECT_EQ(rig.see(9.0, 1.2), UnitVerdict::kUnproven);
+  rig.reason = VoReason::kNone;
+  EXPECT_EQ(rig.see(6.4), UnitVerdict::kJump);
 }
 
 TEST(UnitWatch, AWideDeviationIsNoJump) {

@@ -11,6 +11,8 @@ constexpr double kNumStd = 2.0;
 constexpr int kSteadySteps = 3;
 // After a longer time, any speed could follow from any other.
 constexpr double kLongestSettlingStepS = 0.5;
+// Over a longer gap, VO may match points to wrong places.
+constexpr double kLongestSureStepS = 0.5;
 
 }  // namespace
 
@@ -19,6 +21,7 @@ UnitVerdict UnitWatch::watch(const VoOutput& vo, double metres_per_vo) {
   if (metres_per_vo > 0.0) metres_per_vo_ = metres_per_vo;
   if (vo.scale_carry_std > 0.0) sound_.std_vo_s += vo.scale_carry_std * sound_.vo_s;
   if (std::isnan(vo.scale_carry_std)) sound_.known = false;
+  if (vo.scale_carry_std != 0.0) unproven_ = false;  // the step was one of another unit
   const bool measured = vo.status == VoStatus::kOk && dt_s > 0.0;
   if (!measured || !(metres_per_vo_ > 0.0)) {
     return unsettled_ ? UnitVerdict::kUnsettled : UnitVerdict::kSteady;
@@ -27,13 +30,22 @@ UnitVerdict UnitWatch::watch(const VoOutput& vo, double metres_per_vo) {
   const Eigen::Vector3d along = t.norm() > 0.0 ? t.normalized() : Eigen::Vector3d::UnitZ();
   const double var = along.dot(vo.cov_prev_cam.topLeftCorner<3, 3>() * along);
   const Speed now{true, vo.capture_us, t.norm() / dt_s, std::sqrt(var) / dt_s};
-  if (unsettled_) return settle(now);
+  return unsettled_ ? settle(now) : compare(vo, now);
+}
+
+UnitVerdict UnitWatch::compare(const VoOutput& vo, const Speed& now) {
+  const bool confirmed = !unproven_ || follows(last_, now, 0.0);
+  unproven_ = false;
   last_ = now;
-  if (sound_.known && !follows(sound_, now, kNumStd)) {
+  if (!confirmed || (sound_.known && !follows(sound_, now, kNumStd))) {
     sound_.known = false;
     unsettled_ = true;
     num_steady_ = 0;
     return UnitVerdict::kJump;
+  }
+  if (vo.reason == VoReason::kFramesMissing && vo.interval_s > kLongestSureStepS) {
+    unproven_ = true;
+    return UnitVerdict::kUnproven;
   }
   // A speed that is hardly known would let anything follow it.
   if (now.std_vo_s < kLeastJumpRatio * now.vo_s || !sound_.known) sound_ = now;

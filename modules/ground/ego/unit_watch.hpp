@@ -5,7 +5,8 @@
 /// small residuals that is several times too long, and while it recovers its unit changes. Between
 /// the last sound speed and this one the vehicle can have changed its speed by so much only. If
 /// VO's speed changed by more, nothing is known of the unit any more, and the steps that follow
-/// mean nothing until they are steady.
+/// mean nothing until they are steady. After a long gap, the vehicle can have changed its speed by
+/// much; then the next step has to confirm the one that crosses the gap.
 ///
 /// Units:
 ///   Speeds in [vo]/s; the scale in metres per [vo].
@@ -22,6 +23,7 @@ namespace plumb {
 
 enum class UnitVerdict {
   kSteady,     ///< nothing contradicts the unit
+  kUnproven,   ///< the step crosses a gap, and no step has confirmed it yet
   kJump,       ///< with this image the unit was lost
   kUnsettled,  ///< the unit was lost, and the speeds are not steady yet
 };
@@ -44,6 +46,7 @@ class UnitWatch {
 
   [[nodiscard]] static double seconds_between(const Speed& before, const Speed& now);
   [[nodiscard]] bool follows(const Speed& before, const Speed& now, double num_std) const;
+  UnitVerdict compare(const VoOutput& vo, const Speed& now);
   UnitVerdict settle(const Speed& now);
 
   EgoConfig config_;
@@ -51,6 +54,7 @@ class UnitWatch {
   Speed sound_;                 ///< newest speed that followed from those before
   Speed last_;                  ///< newest speed
   bool unsettled_ = false;
+  bool unproven_ = false;  ///< last_ crossed a gap
   int num_steady_ = 0;
 };
 
