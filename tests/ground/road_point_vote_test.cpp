@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "modules/ground/cues/chord.hpp"
@@ -94,6 +95,21 @@ TEST(Chord, RightTurnsHavePositiveCurvature) {
   VoOutput vo;
   test::script_vo(drive.poses(8), 7, {.metres_per_vo = 1.0}, &vo);
   EXPECT_NEAR(measure_chord(vo).curvature, 0.02 / drive.step_m, 2e-3);
+}
+
+TEST(Chord, ACarThatReversesMovesAlongTheSameLine) {
+  test::Drive drive;
+  drive.mount_pitch_rad = 0.03;
+  drive.turn_left_rad = -0.02;
+  std::vector<Se3> poses = drive.poses(16);
+  VoOutput ahead, back;
+  test::script_vo(poses, 10, {.metres_per_vo = 1.0}, &ahead);
+  std::reverse(poses.begin(), poses.end());
+  test::script_vo(poses, 10, {.metres_per_vo = 1.0}, &back);
+  const Chord chord = measure_chord(back);
+  ASSERT_TRUE(chord.valid);
+  EXPECT_GT(chord.direction.dot(measure_chord(ahead).direction), 0.99);
+  EXPECT_NEAR(chord.curvature, measure_chord(ahead).curvature, 2e-3);
 }
 
 }  // namespace

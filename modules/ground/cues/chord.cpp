@@ -32,8 +32,10 @@ Chord measure_chord(const VoOutput& vo) {
   chord.num_frames = static_cast<int>(vo.seq - (start != nullptr ? start->seq : vo.prev_seq));
   chord.length = T_old_cam.t.norm();
   if (chord.length < kShortestChord) return chord;
-  chord.direction = T_old_cam.R.transpose() * T_old_cam.t / chord.length;
-  chord.curvature = log_so3(T_old_cam.R).y() / chord.length;
+  const Eigen::Vector3d travel = T_old_cam.R.transpose() * T_old_cam.t / chord.length;
+  const double sign = travel.z() < 0.0 ? -1.0 : 1.0;
+  chord.direction = sign * travel;
+  chord.curvature = sign * log_so3(T_old_cam.R).y() / chord.length;
   chord.valid = chord.direction.z() > 0.5;
   return chord;
 }

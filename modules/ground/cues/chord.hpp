@@ -1,5 +1,6 @@
 /// Direction of translation over a chord of the camera's path: the camera moves parallel to the
-/// road, so that the plane's normal is perpendicular to the chord.
+/// road, so that the plane's normal is perpendicular to the chord. A car that reverses moves along
+/// the same line: the direction points ahead all the same.
 ///
 /// Frames:
 ///   cam: x right, y down, z forward, of the newest image.

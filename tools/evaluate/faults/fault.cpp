@@ -310,6 +310,24 @@ FaultRun upside_down_at_first(const FaultDrive& drive) {
   return run;
 }
 
+/// Not a fault, but what a car does: the drive is run through from its end.
+FaultRun reversing(const FaultDrive& drive) {
+  FaultRun run = sound(drive);
+  const std::size_t num = run.shots.size();
+  for (std::size_t i = 0; i < num; ++i) {
+    const RecordedImage& shown = drive.images[num - 1 - i];
+    const RecordedImage& before = drive.images[std::min(num - 1, num - i)];
+    Shot& shot = run.shots[i];
+    shot.stamp_us = shot.true_us =
+        drive.images.front().capture_us + (drive.images.back().capture_us - shown.capture_us);
+    shot.pixels = shown.pixels;
+    // The step to this image is the one that the recorded car made after it.
+    shot.true_speed_m_s = -before.speed_m_s;
+    shot.true_position_m = -shown.position_m;
+  }
+  return run;
+}
+
 FaultRun focal_length_doubled(const FaultDrive& drive) {
   FaultRun run = sound(drive);
   run.camera.fx_px *= 2.0;
@@ -347,6 +365,7 @@ std::vector<Fault> make_all() {
   rows.push_back({"upside_down_at_first", 'M',
                   "the camera is upside down for the first third of the drive",
                   upside_down_at_first});
+  rows.push_back({"reversing", 'I', "no fault: the car reverses all the time", reversing});
   rows.push_back({"focal_length_doubled", 'H', "the calibration states twice the focal length",
                   focal_length_doubled});
   return rows;
