@@ -20,7 +20,8 @@ constexpr double kMinStartParallaxPx = 2.0;
 constexpr double kMinStartInlierRatio = 0.5;
 constexpr double kStandstillFlowPx = 0.35;
 constexpr double kStandstillPercentile = 0.7;
-// So many still images in a row prove that the camera stands. Fewer may show one picture repeatedly.
+// So many still images in a row prove that the camera stands. Fewer may show one picture
+// repeatedly.
 constexpr int kProvenStill = 5;
 constexpr int kTriangulationIterations = 15;
 constexpr int kStartIterations = 30;

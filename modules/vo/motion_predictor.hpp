@@ -43,8 +43,8 @@ class MotionPredictor {
   /// Returns the time since a motion was measured.
   [[nodiscard]] double unseen_s() const { return unseen_s_; }
 
-  /// Returns the covariance of a pose in the middle of a measured motion, `before_s` after its start
-  /// and `after_s` before its end, that was interpolated at constant velocity.
+  /// Returns the covariance of a pose in the middle of a measured motion, `before_s` after its
+  /// start and `after_s` before its end, that was interpolated at constant velocity.
   [[nodiscard]] static Matrix6d interpolation_cov(double before_s, double after_s);
   /// Predicts the motion to an image that comes `dt_s` later and could not be localised.
   [[nodiscard]] PredictedMotion extrapolate(double dt_s);
