@@ -86,6 +86,11 @@ void Initializer::track_reference(const FrameTime& time, const Se3& T_predicted,
     map.tracker.predict_by_flow(map.tracks);
   }
   out->num_tracked = map.tracker.search(map.last_image(), map.newest_image(), map.tracks, true);
+  if (motion.known() && out->num_tracked < kMinTracks) {
+    // The car no longer moves as it did when it was last seen.
+    map.tracker.predict_by_flow(map.tracks);
+    out->num_tracked = map.tracker.search(map.last_image(), map.newest_image(), map.tracks, true);
+  }
   map.tracker.drop_missing(map.tracks);
   predicted_distance_ += motion.measured_speed() * time.dt_s;
 }

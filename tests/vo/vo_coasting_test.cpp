@@ -101,5 +101,18 @@ TEST(Coasting, ATornPictureBeginsANewMapAndCarriesTheUnit) {
   EXPECT_NEAR(mean_step(d, 18, 24), mean_step(d, 6, 12), 0.1 * mean_step(d, 6, 12));
 }
 
+// What was predicted before a long gap leads the search astray, image after image.
+TEST(Restart, FindsItsWayAfterAGapThoughTheCarTurnsTheOtherWayNow) {
+  Drive d;
+  const auto turning = [](double yaw_rad, double z) {
+    return Se3{exp_so3({0.0, yaw_rad, 0.0}), {0.0, 0.0, z}};
+  };
+  for (int i = 0; i < 12; ++i) d.see(turning(0.05 * i, 0.6 * i));
+  ASSERT_EQ(d.last().status, VoStatus::kOk);
+  d.skip(100);
+  for (int i = 0; i < 6; ++i) d.see(turning(-0.05 * i, 20.0 + 0.6 * i));
+  EXPECT_EQ(d.last().status, VoStatus::kOk);
+}
+
 }  // namespace
 }  // namespace plumb
