@@ -160,10 +160,11 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
     return "VO motion: unknown reason";
   if (std::isinf(message.scale_carry_std) || message.scale_carry_std < 0.0)
     return "VO motion: the standard deviation of the scale is negative or infinite";
-  if (!std::isnan(message.interval_s) && !(message.interval_s > 0.0))
-    return "VO motion: the interval between the images is not positive";
-  if (!std::isnan(message.interval_s) && !(message.interval_std_s >= 0.0))
-    return "VO motion: the standard deviation of the interval is negative or not a number";
+  if (std::isinf(message.interval_s) || message.interval_s <= 0.0)
+    return "VO motion: the interval between the images is not positive and finite";
+  if (!std::isnan(message.interval_s) &&
+      !(message.interval_std_s >= 0.0 && std::isfinite(message.interval_std_s)))
+    return "VO motion: the standard deviation of the interval is negative or not finite";
   output->capture_us = message.utime;
   output->seq = message.seq;
   output->session = message.session;

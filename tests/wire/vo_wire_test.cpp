@@ -78,6 +78,18 @@ TEST(VoWire, RefusesCountsAndNumbersOutOfRange) {
   EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = 6; }));
   EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = -1; }));
   EXPECT_EQ("VO motion: unknown reason", refusal([](vo_motion_t* m) { m->reason = 28; }));
+  const std::string interval =
+      "VO motion: the interval between the images is not positive and finite";
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double value : {0.0, -0.1, infinite, -infinite}) {
+    EXPECT_EQ(interval, refusal([value](vo_motion_t* m) { m->interval_s = value; })) << value;
+  }
+  EXPECT_EQ("", refusal([](vo_motion_t* m) { m->interval_s = m->interval_std_s = kNan; }));
+  for (const double value : {-0.1, infinite, kNan}) {
+    EXPECT_EQ("VO motion: the standard deviation of the interval is negative or not finite",
+              refusal([value](vo_motion_t* m) { m->interval_std_s = value; }))
+        << value;
+  }
   const std::string points = "VO motion: number of road points is out of range";
   EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = 385; }));
   EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = -1; }));
