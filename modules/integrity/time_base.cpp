@@ -24,7 +24,7 @@ constexpr double kOldLineShare = 0.05;
 /// Messages among which the one before is looked for: every other one may be foreign.
 constexpr std::size_t kReach = 2;
 /// A refused image is forgotten when the base accepts this many times `agreeing_images` without it.
-constexpr int kForgetFactor = 3;
+constexpr std::int64_t kForgetFactor = 3;
 /// Images of a new base that are further apart have nothing to do with each other.
 constexpr double kLongestLinkUs = 10e6;
 constexpr double kUnitTolerance = 0.1;

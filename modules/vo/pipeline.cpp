@@ -145,7 +145,7 @@ PoseFit Pipeline::localize(StageProbe& probe) {
   map_.tracker.align_to_hosts(map_.newest_image().level(0), map_.tracks, map_.window,
                               rough.T_cam_world);
   probe.mark("anchor");
-  const PoseFit pose = map_.fit(rough.T_cam_world, kPoseIterations);
+  PoseFit pose = map_.fit(rough.T_cam_world, kPoseIterations);
   probe.mark("pose");
   return pose;
 }
@@ -168,7 +168,7 @@ void Pipeline::search_wider(const Se3& T_predicted) {
 /// starts with a wide robust kernel and narrows it step by step (graduated non-convexity). The fit
 /// with more inliers wins.
 PoseFit Pipeline::fit_from(const Se3& T_predicted) const {
-  const PoseFit near = map_.fit(T_predicted, kPoseIterations);
+  PoseFit near = map_.fit(T_predicted, kPoseIterations);
   if (near.inlier_ratio() >= kPoorInlierRatio) return near;
   const Eigen::Vector2d focal_px(camera_.fx_px, camera_.fy_px);
   Se3 T = map_.last_pose();

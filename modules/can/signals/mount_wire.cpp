@@ -19,8 +19,7 @@ constexpr Signal kMountSignals[] = {
      when_received<Mount>([](const Mount& m) { return m.status; }),
      "0 no reference yet, too few stretches; 1 no reference yet, the stretches disagree; 2 the "
      "camera sits as its reference says; 3 it does not, the calibration no longer holds; 4 it "
-     "looks far off the "
-     "direction of travel.",
+     "looks far off the direction of travel.",
      kMountStatusNames,
      "the mount check is silent for more than 3 s or was never heard"},
     {"Mount_Reason",
