@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::int64_t kHour_us = 3'600'000'000;
 
-FaultRun sound(const FaultDrive& drive) { return sound_run(drive); }
-
 /// Where faults begin: two fifths into the drive, when the estimators run.
 std::size_t middle(const FaultRun& run) { return run.shots.size() * 2 / 5; }
 
@@ -25,14 +23,10 @@ FaultRun changed(FaultRun run, std::size_t from, std::size_t count, Change chang
   return run;
 }
 
-Pixels edited(const Pixels& from, const std::function<void(std::vector<std::uint8_t>*)>& edit) {
-  return edited_picture(from, edit);
-}
-
 /// Sensor noise of `std_grey` on top of a picture, so that a repeated one is not equal to the bit.
 Pixels noisy(const Pixels& from, double std_grey, std::size_t seed) {
   if (std_grey <= 0.0) return from;
-  return edited(from, [&](std::vector<std::uint8_t>* pixels) {
+  return edited_picture(from, [&](std::vector<std::uint8_t>* pixels) {
     std::mt19937 random(static_cast<unsigned>(seed));
     std::normal_distribution<float> noise(0.0F, static_cast<float>(std_grey));
     for (std::uint8_t& p : *pixels) {
@@ -44,7 +38,7 @@ Pixels noisy(const Pixels& from, double std_grey, std::size_t seed) {
 
 /// A white block that changes its place with every image, as a clock in the picture does.
 Pixels with_overlay(const Pixels& from, int width_px, std::size_t tick) {
-  return edited(from, [&](std::vector<std::uint8_t>* pixels) {
+  return edited_picture(from, [&](std::vector<std::uint8_t>* pixels) {
     const auto width = static_cast<std::size_t>(width_px);
     for (std::size_t v = 10; v < 40; ++v) {
       for (std::size_t u = 20; u < 200; ++u) {
@@ -59,7 +53,7 @@ Pixels with_overlay(const Pixels& from, int width_px, std::size_t tick) {
 Fault stamps_shift(const std::string& name, std::int64_t by_us, std::size_t count,
                    const std::string& words) {
   return {name, count == 1 ? 'C' : 'D', words, [by_us, count](const FaultDrive& drive) {
-            FaultRun run = sound(drive);
+            FaultRun run = sound_run(drive);
             const std::size_t from = middle(run);
             // A lasting shift is a fault at its first image alone: later ones agree among
             // themselves.
@@ -73,7 +67,7 @@ Fault stamps_shift(const std::string& name, std::int64_t by_us, std::size_t coun
 
 Fault stamps_scaled(const std::string& name, double factor, const std::string& words) {
   return {name, 'D', words, [factor](const FaultDrive& drive) {
-            FaultRun run = sound(drive);
+            FaultRun run = sound_run(drive);
             for (Shot& shot : run.shots) {
               shot.stamp_us =
                   static_cast<std::int64_t>(static_cast<double>(shot.stamp_us) * factor);
@@ -84,7 +78,7 @@ Fault stamps_scaled(const std::string& name, double factor, const std::string& w
 }
 
 FaultRun neighbours_swapped(const FaultDrive& drive) {
-  FaultRun run = sound(drive);
+  FaultRun run = sound_run(drive);
   const std::size_t at = middle(run);
   Shot& early = run.shots[at];
   Shot& late = run.shots[at + 1];
@@ -98,7 +92,7 @@ FaultRun neighbours_swapped(const FaultDrive& drive) {
 // --- source ------------------------------------------------------------------------------------
 
 FaultRun numbers_anew(const FaultDrive& drive) {
-  FaultRun run = sound(drive);
+  FaultRun run = sound_run(drive);
   const std::size_t from = middle(run);
   const std::int64_t by = run.shots[from].seq;
   for (std::size_t i = from; i < run.shots.size(); ++i) run.shots[i].seq -= by;
@@ -107,7 +101,7 @@ FaultRun numbers_anew(const FaultDrive& drive) {
 }
 
 FaultRun second_pass(const FaultDrive& drive) {
-  FaultRun run = sound(drive);
+  FaultRun run = sound_run(drive);
   const std::vector<Shot> pass = run.shots;
   const std::int64_t length_us = pass.back().true_us - pass.front().true_us + 100'000;
   for (Shot shot : pass) {
@@ -120,7 +114,7 @@ FaultRun second_pass(const FaultDrive& drive) {
 
 FaultRun two_publishers(const FaultDrive& drive) {
   FaultRun run{drive.camera, {}};
-  const FaultRun one = sound(drive);
+  const FaultRun one = sound_run(drive);
   const std::size_t half = one.shots.size() / 2;
   for (std::size_t i = 0; i < one.shots.size(); ++i) {
     run.shots.push_back(one.shots[i]);
@@ -139,7 +133,7 @@ FaultRun two_publishers(const FaultDrive& drive) {
 
 Fault gap(const std::string& name, std::size_t count, const std::string& words) {
   return {name, 'I', words, [count](const FaultDrive& drive) {
-            FaultRun run = sound(drive);
+            FaultRun run = sound_run(drive);
             const auto from = run.shots.begin() + static_cast<std::ptrdiff_t>(middle(run));
             const auto to =
                 from + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
@@ -149,24 +143,10 @@ Fault gap(const std::string& name, std::size_t count, const std::string& words) 
           }};
 }
 
-/// Every n-th image at the old rate: a car that drives n times as fast.
 Fault faster_car(std::size_t n) {
   return {"fast_x" + std::to_string(n), 'I',
           "every " + std::to_string(n) + ". image at the same rate: a car that many times as fast",
-          [n](const FaultDrive& drive) {
-            FaultRun run{drive.camera, {}};
-            const std::int64_t start_us = drive.images.front().capture_us;
-            std::int64_t seq = 0;
-            for (std::size_t i = 0; i < drive.images.size(); i += n, ++seq) {
-              const std::int64_t at_us = start_us + 100'000 * seq;
-              // A car that is so fast brakes harder, too: the speed of this very step is the truth.
-              const double step_m =
-                  i < n ? 0.0 : drive.images[i].position_m - drive.images[i - n].position_m;
-              run.shots.push_back({at_us, seq, drive.images[i].pixels, at_us, 10.0 * step_m, false,
-                                   drive.images[i].position_m});
-            }
-            return run;
-          }};
+          [n](const FaultDrive& drive) { return faster_run(drive, 0, n, drive.images.size()); }};
 }
 
 // --- pictures ----------------------------------------------------------------------------------
@@ -174,7 +154,7 @@ Fault faster_car(std::size_t n) {
 Fault repeated_once(const std::string& name, double noise_grey) {
   return {name, 'E', "one image shows the picture before it again",
           [noise_grey](const FaultDrive& drive) {
-            FaultRun run = sound(drive);
+            FaultRun run = sound_run(drive);
             const std::size_t at = middle(run);
             return changed(run, at, 1,
                            [&](Shot* shot, const std::vector<Shot>& before, std::size_t i) {
@@ -188,7 +168,7 @@ using Show = std::function<Pixels(const std::vector<Shot>& before, std::size_t f
                                   int width_px)>;
 Fault wrong_pictures(const std::string& name, const std::string& words, const Show& show) {
   return {name, 'E', words, [show](const FaultDrive& drive) {
-            FaultRun run = sound(drive);
+            FaultRun run = sound_run(drive);
             const std::size_t from = middle(run);
             const std::size_t count = std::min<std::size_t>(30, (run.shots.size() - from) / 2);
             return changed(run, from, count,
@@ -199,14 +179,14 @@ Fault wrong_pictures(const std::string& name, const std::string& words, const Sh
 }
 
 Pixels rows_of_two(const Pixels& upper, const Pixels& lower) {
-  return edited(upper, [&](std::vector<std::uint8_t>* pixels) {
+  return edited_picture(upper, [&](std::vector<std::uint8_t>* pixels) {
     const auto half = static_cast<std::ptrdiff_t>(pixels->size() / 2);
     std::copy(lower->begin() + half, lower->end(), pixels->begin() + half);
   });
 }
 
 Pixels mirrored(const Pixels& from, int width_px) {
-  return edited(from, [&](std::vector<std::uint8_t>* pixels) {
+  return edited_picture(from, [&](std::vector<std::uint8_t>* pixels) {
     for (auto row = pixels->begin(); row != pixels->end(); row += width_px) {
       std::reverse(row, row + width_px);
     }
@@ -214,7 +194,7 @@ Pixels mirrored(const Pixels& from, int width_px) {
 }
 
 Pixels upside_down(const Pixels& from) {
-  return edited(from, [](std::vector<std::uint8_t>* pixels) {
+  return edited_picture(from, [](std::vector<std::uint8_t>* pixels) {
     std::reverse(pixels->begin(), pixels->end());
   });
 }
@@ -258,9 +238,10 @@ std::vector<Fault> picture_faults() {
                                 }));
   rows.push_back(wrong_pictures("frozen_pixel", "the picture is frozen but for one pixel",
                                 [=](const auto& before, std::size_t from, std::size_t i, int) {
-                                  return edited(first_sound(before, from), [i](auto* pixels) {
-                                    pixels->front() = static_cast<std::uint8_t>(i);
-                                  });
+                                  return edited_picture(
+                                      first_sound(before, from), [i](auto* pixels) {
+                                        pixels->front() = static_cast<std::uint8_t>(i);
+                                      });
                                 }));
   rows.push_back(wrong_pictures("lower_half_frozen", "the lower half of the picture is frozen",
                                 [=](const auto& before, std::size_t from, std::size_t i, int) {
@@ -283,7 +264,7 @@ std::vector<Fault> picture_faults() {
                                 }));
   rows.push_back(wrong_pictures("black", "the picture is black for 3 s",
                                 [](const auto& before, std::size_t, std::size_t i, int) {
-                                  return edited(before[i].pixels, [](auto* pixels) {
+                                  return edited_picture(before[i].pixels, [](auto* pixels) {
                                     std::fill(pixels->begin(), pixels->end(), std::uint8_t{3});
                                   });
                                 }));
@@ -293,7 +274,7 @@ std::vector<Fault> picture_faults() {
 // --- geometry ----------------------------------------------------------------------------------
 
 FaultRun all_upside_down(const FaultDrive& drive) {
-  FaultRun run = sound(drive);
+  FaultRun run = sound_run(drive);
   for (Shot& shot : run.shots) {
     shot.pixels = upside_down(shot.pixels);
     shot.faulty = true;
@@ -302,7 +283,7 @@ FaultRun all_upside_down(const FaultDrive& drive) {
 }
 
 FaultRun upside_down_at_first(const FaultDrive& drive) {
-  FaultRun run = sound(drive);
+  FaultRun run = sound_run(drive);
   for (std::size_t i = 0; i < run.shots.size() / 3; ++i) {
     run.shots[i].pixels = upside_down(run.shots[i].pixels);
     run.shots[i].faulty = true;
@@ -312,7 +293,7 @@ FaultRun upside_down_at_first(const FaultDrive& drive) {
 
 /// Not a fault, but what a car does: the drive is run through from its end.
 FaultRun reversing(const FaultDrive& drive) {
-  FaultRun run = sound(drive);
+  FaultRun run = sound_run(drive);
   const std::size_t num = run.shots.size();
   for (std::size_t i = 0; i < num; ++i) {
     const RecordedImage& shown = drive.images[num - 1 - i];
@@ -329,7 +310,7 @@ FaultRun reversing(const FaultDrive& drive) {
 }
 
 FaultRun focal_length_doubled(const FaultDrive& drive) {
-  FaultRun run = sound(drive);
+  FaultRun run = sound_run(drive);
   run.camera.fx_px *= 2.0;
   run.camera.fy_px *= 2.0;
   for (Shot& shot : run.shots) shot.faulty = true;
@@ -338,7 +319,7 @@ FaultRun focal_length_doubled(const FaultDrive& drive) {
 
 std::vector<Fault> make_all() {
   std::vector<Fault> rows = {
-      {"sound", '-', "nothing", sound},
+      {"sound", '-', "nothing", sound_run},
       stamps_shift("jump_forward_200ms", 200'000, 10'000, "stamps are 200 ms later from here on"),
       stamps_shift("jump_back_80ms", -80'000, 10'000, "stamps are 80 ms earlier from here on"),
       stamps_shift("jump_back_1h", -kHour_us, 10'000, "stamps are 1 h earlier from here on"),
@@ -372,22 +353,6 @@ std::vector<Fault> make_all() {
 }
 
 }  // namespace
-
-FaultRun sound_run(const FaultDrive& drive) {
-  FaultRun run{drive.camera, {}};
-  for (const RecordedImage& image : drive.images) {
-    run.shots.push_back({image.capture_us, image.seq, image.pixels, image.capture_us,
-                         image.speed_m_s, false, image.position_m});
-  }
-  return run;
-}
-
-Pixels edited_picture(const Pixels& from,
-                      const std::function<void(std::vector<std::uint8_t>*)>& edit) {
-  auto pixels = std::make_shared<std::vector<std::uint8_t>>(*from);
-  edit(pixels.get());
-  return pixels;
-}
 
 const std::vector<Fault>& all_faults() {
   static const std::vector<Fault> faults = make_all();

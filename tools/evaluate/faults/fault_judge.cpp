@@ -25,17 +25,11 @@ struct Verdict {
   double error_m_s = 0.0;
 };
 
-/// Whether the message gives a speed. A speed that is not measured is NaN.
-bool is_valid(const ego_motion_t& ego) {
-  return ego.status != ego_motion_t::STATUS_INITIALIZING &&
-         ego.status != ego_motion_t::STATUS_LOST && !std::isnan(ego.velocity_ground_m_s[0]);
-}
-
 Verdict judge(const Shot& shot, const ego_motion_t& ego) {
-  Verdict verdict{1e-6 * static_cast<double>(shot.true_us), shot.faulty, is_valid(ego)};
+  Verdict verdict{1e-6 * static_cast<double>(shot.true_us), shot.faulty, is_speed_valid(ego)};
   if (!verdict.valid) return verdict;
   verdict.error_m_s = std::abs(ego.velocity_ground_m_s[0] - shot.true_speed_m_s);
-  verdict.wrong = !(verdict.error_m_s <= std::max(3.0 * ego.speed_std_m_s, kLeastError_m_s));
+  verdict.wrong = is_speed_wrong(verdict.error_m_s, ego.speed_std_m_s);
   return verdict;
 }
 
@@ -89,6 +83,15 @@ FaultResult summarise(const std::vector<Verdict>& verdicts, std::int64_t num_ima
 }
 
 }  // namespace
+
+bool is_speed_valid(const ego_motion_t& ego) {
+  return ego.status != ego_motion_t::STATUS_INITIALIZING &&
+         ego.status != ego_motion_t::STATUS_LOST && !std::isnan(ego.velocity_ground_m_s[0]);
+}
+
+bool is_speed_wrong(double error_m_s, double std_m_s) {
+  return !(std::abs(error_m_s) <= std::max(3.0 * std_m_s, kLeastError_m_s));
+}
 
 double FaultResult::wrong_ratio() const {
   return num_valid > 0 ? static_cast<double>(num_wrong) / static_cast<double>(num_valid) : 0.0;

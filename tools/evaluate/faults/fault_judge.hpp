@@ -14,6 +14,11 @@
 
 namespace plumb {
 
+/// Whether the message gives a speed. A speed that is not measured is NaN.
+[[nodiscard]] bool is_speed_valid(const ego_motion_t& ego);
+/// Whether a valid speed with this error is wrong.
+[[nodiscard]] bool is_speed_wrong(double error_m_s, double std_m_s);
+
 struct FaultResult {
   std::int64_t num_images = 0;
   std::int64_t num_results = 0;  ///< EGO_MOTION messages

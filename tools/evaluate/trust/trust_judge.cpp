@@ -8,7 +8,6 @@
 namespace plumb {
 namespace {
 
-constexpr double kLeastError_m_s = 0.3;
 // VO's steps scatter: the true scale is that over this many to either side.
 constexpr std::size_t kReachImages = 4;
 
@@ -45,8 +44,7 @@ double squared(double error, double std) { return error * error / (std * std); }
 }  // namespace
 
 bool FrameTrust::wrong() const {
-  const double error = std::abs(speed_m_s - true_speed_m_s);
-  return valid && !(error <= std::max(3.0 * speed_std_m_s, kLeastError_m_s));
+  return valid && is_speed_wrong(speed_m_s - true_speed_m_s, speed_std_m_s);
 }
 
 double FrameTrust::speed_nees() const { return squared(speed_m_s - true_speed_m_s, speed_std_m_s); }
@@ -66,8 +64,7 @@ std::vector<FrameTrust> judge_trust(const FaultRun& run, std::size_t speed_up,
       const ego_motion_t& ego = *record.ego;
       frame.status = ego.status;
       frame.speed_m_s = ego.velocity_ground_m_s[0];
-      frame.valid = ego.status != ego_motion_t::STATUS_INITIALIZING &&
-                    ego.status != ego_motion_t::STATUS_LOST && !std::isnan(frame.speed_m_s);
+      frame.valid = is_speed_valid(ego);
       frame.speed_std_m_s = ego.speed_std_m_s;
       frame.log_scale = ego.log_scale;
       frame.log_scale_std = ego.log_scale_std;

@@ -18,7 +18,7 @@ namespace plumb {
 struct FrameTrust {
   std::int64_t seq = 0;
   int status = 0;
-  bool valid = false;  ///< ok, scale held, standstill or coasting
+  bool valid = false;  ///< gives a speed
   double speed_m_s = 0.0;
   double speed_std_m_s = 0.0;
   double true_speed_m_s = 0.0;

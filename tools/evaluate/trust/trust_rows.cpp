@@ -8,34 +8,13 @@ namespace {
 constexpr std::size_t kStartImages = 24;  // of a run that asks how a start comes out
 constexpr std::size_t kStartEvery = 8;    // images of the drive from one start to the next
 
-/// Every n-th image from `first` on, in an n-th of the time: a car that drives n times as fast. The
-/// true positions belong to the recorded stamps, jitter included.
-FaultRun drive_part(const FaultDrive& drive, std::size_t first, std::size_t n, std::size_t count) {
-  FaultRun run{drive.camera, {}};
-  std::size_t last = first;
-  for (std::size_t i = first; i < drive.images.size() && run.shots.size() < count; i += n) {
-    const auto seq = static_cast<std::int64_t>(run.shots.size());
-    const std::int64_t start_us = drive.images[first].capture_us;
-    const std::int64_t at_us =
-        start_us + (drive.images[i].capture_us - start_us) / static_cast<std::int64_t>(n);
-    const double step_m = drive.images[i].position_m - drive.images[last].position_m;
-    const double speed_m_s =
-        run.shots.empty() ? 0.0
-                          : 1e6 * step_m / static_cast<double>(at_us - run.shots.back().true_us);
-    run.shots.push_back(
-        {at_us, seq, drive.images[i].pixels, at_us, speed_m_s, false, drive.images[i].position_m});
-    last = i;
-  }
-  return run;
-}
-
 TrustRow starts(std::size_t n) {
   return {"starts_x" + std::to_string(n), "starts all over the drive, every n-th image", n,
           [n](const FaultDrive& drive) {
             std::vector<FaultRun> runs;
             const std::size_t every = kStartEvery;
             for (std::size_t i = 0; i + 12 * n < drive.images.size(); i += every) {
-              runs.push_back(drive_part(drive, i, n, kStartImages));
+              runs.push_back(faster_run(drive, i, n, kStartImages));
             }
             return runs;
           }};
@@ -46,7 +25,7 @@ TrustRow fast(std::size_t n) {
           [n](const FaultDrive& drive) {
             std::vector<FaultRun> runs;
             for (std::size_t i = 0; i < n; ++i) {
-              runs.push_back(drive_part(drive, i, n, drive.images.size()));
+              runs.push_back(faster_run(drive, i, n, drive.images.size()));
             }
             return runs;
           }};

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/evaluate/faults/fault.hpp"
+#include "tools/evaluate/faults/fault_run.hpp"
 
 namespace plumb {
 
