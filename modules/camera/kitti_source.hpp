@@ -25,7 +25,9 @@ class KittiSource final : public RecordedSource {
   void complete(CameraConfig* config) const override;
   [[nodiscard]] bool read(GreyFrame* frame) override;
 
-  [[nodiscard]] std::size_t num_frames() const { return sequence_.frames.size(); }
+  [[nodiscard]] std::int64_t num_frames() const override {
+    return static_cast<std::int64_t>(sequence_.frames.size());
+  }
 
  private:
   void load(const std::filesystem::path& file);

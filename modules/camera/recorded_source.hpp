@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/image_view.hpp"
 #include "modules/camera/camera_config.hpp"
@@ -25,6 +27,15 @@ class RecordedSource {
   /// Reads the next frame. Returns false after the last.
   /// Throws InputError when the recording is damaged.
   [[nodiscard]] virtual bool read(GreyFrame* frame) = 0;
+
+  /// Number of frames of the recording as it is stated there; 0 when it is not.
+  [[nodiscard]] virtual std::int64_t num_frames() const = 0;
+  /// What the user should know about the recording, as sentences.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
+
+/// Writes the size of the recording's images to `config`. Throws UsageError when `config` states
+/// another one.
+void complete_size(const std::string& file, int width_px, int height_px, CameraConfig* config);
 
 }  // namespace plumb

@@ -42,15 +42,12 @@ bool VideoSource::load() {
 }
 
 void VideoSource::complete(CameraConfig* config) const {
-  const bool same_width = config->width_px == 0 || config->width_px == image_.cols;
-  const bool same_height = config->height_px == 0 || config->height_px == image_.rows;
-  if (!same_width || !same_height) {
-    throw UsageError(file_ + ": is " + std::to_string(image_.cols) + "x" +
-                     std::to_string(image_.rows) + ", camera.width_px and camera.height_px say " +
-                     std::to_string(config->width_px) + "x" + std::to_string(config->height_px));
-  }
-  config->width_px = image_.cols;
-  config->height_px = image_.rows;
+  complete_size(file_, image_.cols, image_.rows, config);
+}
+
+std::int64_t VideoSource::num_frames() const {
+  const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+  return count > 0.0 && count < 1e9 ? std::llround(count) : 0;
 }
 
 bool VideoSource::read(GreyFrame* frame) {

@@ -23,6 +23,7 @@ class VideoSource final : public RecordedSource {
 
   void complete(CameraConfig* config) const override;
   [[nodiscard]] bool read(GreyFrame* frame) override;
+  [[nodiscard]] std::int64_t num_frames() const override;
 
  private:
   bool load();

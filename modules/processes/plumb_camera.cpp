@@ -1,4 +1,4 @@
-/// plumb-camera: V4L2 device, KITTI folder or video -> CAMERA, CAMERA_CALIBRATION
+/// plumb-camera: V4L2 device, KITTI folder, image folder or video -> CAMERA, CAMERA_CALIBRATION
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/utils/logger.hpp>
@@ -6,6 +6,7 @@
 #include <string>
 
 #include "modules/camera/device_source.hpp"
+#include "modules/camera/folder_source.hpp"
 #include "modules/camera/kitti_source.hpp"
 #include "modules/camera/live_node.hpp"
 #include "modules/camera/player_node.hpp"
@@ -22,6 +23,8 @@ struct Options {
   std::string kitti;
   int kitti_camera = 0;
   std::string video;
+  std::string images;
+  double rate_hz = 0.0;
   double speed = 1.0;
 };
 
@@ -31,6 +34,12 @@ void declare(plumb::CommandLine& app, Options* options) {
   plumb::Option kitti =
       app.add_option("--kitti", options->kitti, "KITTI folder: image_<n>, times.txt, calib.txt");
   plumb::Option video = app.add_option("--video", options->video, "video file");
+  plumb::Option images =
+      app.add_option("--images", options->images, "folder of images in the order of their names");
+  app.add_option("--rate", options->rate_hz,
+                 "images/s of --images; default: times.txt, or times in the names")
+      .check(plumb::within(0.1, 1000.0))
+      .needs(images);
   app.add_option("--kitti-camera", options->kitti_camera, "which image_<n>; default 0")
       .check(plumb::within(0, 3))
       .needs(kitti);
@@ -38,8 +47,9 @@ void declare(plumb::CommandLine& app, Options* options) {
                  "pace of a recording; default 1, 0 is as fast as it goes")
       .check(plumb::within(0.0, 1000.0))
       .excludes(device);
-  device.excludes(kitti).excludes(video);
-  kitti.excludes(video);
+  device.excludes(kitti).excludes(video).excludes(images);
+  kitti.excludes(video).excludes(images);
+  video.excludes(images);
 }
 
 class CameraProcess {
@@ -50,6 +60,9 @@ class CameraProcess {
       recording_ = std::make_unique<plumb::KittiSource>(options.kitti, options.kitti_camera);
     } else if (!options.video.empty()) {
       recording_ = std::make_unique<plumb::VideoSource>(options.video);
+    } else if (!options.images.empty()) {
+      recording_ = std::make_unique<plumb::FolderSource>(
+          plumb::ImageFolderOptions{options.images, options.rate_hz, {}});
     }
     if (recording_ != nullptr) {
       recording_->complete(&config);
@@ -59,7 +72,8 @@ class CameraProcess {
     }
     const std::string& device = options.device.empty() ? config.device : options.device;
     if (device.empty()) {
-      throw plumb::UsageError("no source: give --device, --kitti, --video or camera.device");
+      throw plumb::UsageError(
+          "no source: give --device, --kitti, --images, --video or camera.device");
     }
     device_.emplace(config, device);
     device_->open_first(&config);
@@ -79,7 +93,7 @@ class CameraProcess {
 
 int main(int argc, char** argv) {
   plumb::Process process(
-      {"camera", "Camera, KITTI folder or video -> CAMERA", plumb::kHealthCamera});
+      {"camera", "Camera, image folder or video -> CAMERA", plumb::kHealthCamera});
   // OpenCV is silenced, so that each error is reported once and by this process.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::PlumbConfig config;

@@ -10,9 +10,9 @@
 #include "modules/datasets/kitti/png_image.hpp"
 #include "modules/datasets/text.hpp"
 #include "modules/detections/detections_wire.hpp"
-#include "platform/log_file.hpp"
 #include "plumb/ground_truth_t.hpp"
 #include "tools/datasets/kitti_tracking/kitti_tracking.hpp"
+#include "tools/support/message_log.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
 
@@ -42,7 +42,7 @@ class Converter {
     }
     if (result_.num_frames == 0 || frame.capture_us - calibration_us_ >= kCalibrationPeriod_us) {
       calibration_us_ = frame.capture_us;
-      write(frame.capture_us, kCameraCalibration, to_wire(camera_, frame.capture_us));
+      log_.write(frame.capture_us, kCameraCalibration, to_wire(camera_, frame.capture_us));
     }
     if (frame.T_world_cam || frame.plane) write_truth(frame);
     write_image(frame, image);
@@ -60,14 +60,6 @@ class Converter {
   [[nodiscard]] const CameraModel& camera() const { return camera_; }
 
  private:
-  template <typename Message>
-  void write(std::int64_t capture_us, const Channel& channel, const Message& message) {
-    const int size = message.getEncodedSize();
-    buffer_.resize(static_cast<std::size_t>(size));
-    message.encode(buffer_.data(), 0, size);
-    log_.write(capture_us, channel.name, buffer_);
-  }
-
   void write_image(const SequenceFrame& frame, const cv::Mat& image) {
     if (options_.jpeg) {
       cv::imencode(".jpg", image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
@@ -77,7 +69,7 @@ class Converter {
                            static_cast<std::ptrdiff_t>(image.step[0])};
       to_wire(frame.capture_us, frame.seq, view, &image_);
     }
-    write(frame.capture_us, kCamera, image_);
+    log_.write(frame.capture_us, kCamera, image_);
   }
 
   /// An image without boxes gets an empty message, as from a detector that found nothing.
@@ -86,7 +78,7 @@ class Converter {
     detections.capture_us = frame.capture_us;
     result_.num_detections += static_cast<std::int64_t>(detections.detections.size());
     to_wire(detections, &detections_);
-    write(frame.capture_us, kDetections, detections_);
+    log_.write(frame.capture_us, kDetections, detections_);
   }
 
   void write_truth(const SequenceFrame& frame) {
@@ -109,20 +101,19 @@ class Converter {
       for (int i = 0; i < 3; ++i) truth.normal_cam[i] = frame.plane->normal_cam[i];
       truth.height_m = frame.plane->height_m;
     }
-    write(frame.capture_us, kGroundTruth, truth);
+    log_.write(frame.capture_us, kGroundTruth, truth);
   }
 
   const ConvertOptions& options_;
   CameraModel camera_;
   std::vector<TrackingRow> boxes_;
-  LogWriter log_;
+  MessageLog log_;
   ConvertResult result_;
   std::int64_t first_us_ = 0;
   std::int64_t calibration_us_ = 0;
   image_t image_;
   detections_t detections_{};
   std::vector<std::uint8_t> jpeg_;
-  std::vector<std::uint8_t> buffer_;
 };
 
 cv::Mat load_first(const Sequence& sequence) {

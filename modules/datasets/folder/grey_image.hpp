@@ -1,0 +1,14 @@
+/// Reads an image file of a usual format as 8-bit grey.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+
+namespace plumb {
+
+/// Reads the grey pixels of `path`, upright as its EXIF data say. Colour becomes luma (BT.601).
+/// Throws InputError for a file that cannot be read, is cut off or corrupt, or has more than 8 bits
+/// per channel.
+[[nodiscard]] cv::Mat load_grey_image(const std::filesystem::path& path);
+
+}  // namespace plumb

@@ -1,0 +1,47 @@
+#include "tools/run/convert/camera_file.hpp"
+
+#include "modules/chain/plumb_config.hpp"
+#include "modules/datasets/kitti/calibration.hpp"
+#include "platform/config.hpp"
+
+namespace plumb {
+namespace {
+
+namespace fs = std::filesystem;
+
+CameraConfig read_calib_txt(const fs::path& path) {
+  const CalibrationFile file(path);
+  const CameraModel camera = read_projection(file, "P0").model;
+  CameraConfig config;
+  config.fx_px = camera.fx_px;
+  config.fy_px = camera.fy_px;
+  config.cx_px = camera.cx_px;
+  config.cy_px = camera.cy_px;
+  config.residual_k1 = file.optional_number("residual_k1").value_or(0.0);
+  config.residual_k2 = file.optional_number("residual_k2").value_or(0.0);
+  config.camera_height_m = file.optional_number("camera_height_m").value_or(0.0);
+  config.readout_s = file.optional_number("readout_s").value_or(0.0);
+  return config;
+}
+
+}  // namespace
+
+CameraConfig read_camera_file(const fs::path& path) {
+  if (path.extension() == ".txt") return read_calib_txt(path);
+  PlumbConfig config;
+  load_config(path.string(), &config);
+  return config.camera;
+}
+
+fs::path find_camera_file(const fs::path& recording) {
+  const fs::path absolute = fs::absolute(recording / "").parent_path();
+  const fs::path inside = fs::is_directory(recording) ? absolute : absolute.parent_path();
+  for (const fs::path& folder : {inside, inside.parent_path()}) {
+    for (const char* name : {"camera.toml", "calib.txt"}) {
+      if (fs::is_regular_file(folder / name)) return folder / name;
+    }
+  }
+  return {};
+}
+
+}  // namespace plumb
