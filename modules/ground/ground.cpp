@@ -11,6 +11,7 @@
 #include "modules/ground/cue_fuser.hpp"
 #include "modules/ground/cues/chord.hpp"
 #include "modules/ground/cues/dense_cue.hpp"
+#include "modules/ground/cues/motion_cue.hpp"
 #include "modules/ground/cues/objects_cue.hpp"
 #include "modules/ground/cues/points_cue.hpp"
 #include "modules/ground/ego/ego_motion.hpp"
@@ -25,6 +26,13 @@ namespace {
 // others.
 constexpr int kStartProven = 3;
 constexpr int kStartFailed = 3;
+
+// Standard deviations of the road's speed by which the height of another cue may differ from it.
+constexpr double kMostMotionStds = 3.0;
+// Weight of a new image in the running mean of the gap between the road's speed and the filter, and
+// how many standard deviations of the speed it may have.
+constexpr double kMotionGapShare = 0.1;
+constexpr double kMostMotionGapStds = 2.0;
 
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
@@ -59,6 +67,7 @@ struct GroundEstimator::Impl {
         dense_cue(config.filter, *covariance, ring, row_clock),
         points_cue(config.filter, *covariance),
         objects_cue(*covariance),
+        motion_cue(config.filter),
         filter(covariance->road_bend(), config.filter),
         drift(config.filter),
         ego(config.ego),
@@ -74,7 +83,9 @@ struct GroundEstimator::Impl {
   void fuse(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void fuse_height(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void report(const CueFrame& frame, const FramePrior& prior, const Observations& observations);
+  static void hold_against_motion(Observations* observations);
   void try_start(bool used, bool rejected);
+  void follow_motion_gap(const Observation& motion);
   void diagnose(const CueFrame& frame, const FramePrior& prior);
   [[nodiscard]] HeightMeasurement height_seen(const Observations& observations) const;
   [[nodiscard]] RoadShape road_shape(const Chord& chord) const;
@@ -89,7 +100,9 @@ struct GroundEstimator::Impl {
   DenseCue dense_cue;
   PointsCue points_cue;
   ObjectsCue objects_cue;
-  std::array<Cue*, kNumCues> cues{&dense_cue, &points_cue, &objects_cue};  ///< as in kCueTable
+  MotionCue motion_cue;
+  std::array<Cue*, kNumCues> cues{&dense_cue, &points_cue, &objects_cue,
+                                  &motion_cue};  ///< as in kCueTable
   PlaneFilter filter;
   ResidualStatistics residuals;
   ScaleDrift drift;
@@ -98,6 +111,8 @@ struct GroundEstimator::Impl {
   std::int32_t scale_epoch = 0;
   bool unit_proven = true;
   StartTrial trial;
+  double motion_gap = 0.0;      ///< ln height by the road's speed less the filter's, running mean
+  double motion_gap_std = 0.0;  ///< of the road's speed
   GroundOutput out;
   CueDiagnostics diagnostics;
 };
@@ -213,7 +228,10 @@ void GroundEstimator::Impl::expect_plane(const CueFrame& frame, FramePrior* prio
   } else {
     const bool started = filter.started();
     prior->normal_cam = normal_across(chord.direction, started ? filter.state()(0) : 0.0);
-    prior->height = points_cue.find_height(*frame.vo, *prior, started ? filter.height() : 0.0);
+    const bool told = frame.vo->road_height > 0.0;
+    prior->height =
+        told ? frame.vo->road_height
+             : points_cue.find_height(*frame.vo, *prior, started ? filter.height() : 0.0);
   }
   if (!(prior->height > 0.0)) return;
   prior->context = {std::abs(chord.curvature) * prior->height, chord.step / prior->height};
@@ -231,12 +249,30 @@ RoadShape GroundEstimator::Impl::road_shape(const Chord& chord) const {
 Observations GroundEstimator::Impl::measure(const CueFrame& frame, FramePrior* prior,
                                             StageProbe& probe) {
   Observations observations;
+  // The other cues of the height would count the same pixels twice.
+  const bool motion_only = frame.vo->reason == VoReason::kRoadMotion;
   for (std::size_t i = 0; i < kNumCues; ++i) {
-    observations[i] = cues[i]->measure(frame, *prior);
+    const bool skipped = motion_only && kCueTable[i].measures_height && i != kCueMotion;
+    observations[i] = skipped ? nothing_observed(*prior) : cues[i]->measure(frame, *prior);
     *prior = observations[i].prior;
     probe.mark(kCueTable[i].name);
   }
+  hold_against_motion(&observations);
   return observations;
+}
+
+/// What is attached to the camera, or texture that compression has smeared, may align better with a
+/// plane that the road's speed contradicts.
+void GroundEstimator::Impl::hold_against_motion(Observations* observations) {
+  const CueReport& motion = (*observations)[kCueMotion].report;
+  if (motion.status != CueStatus::kUsed) return;
+  const double most = kMostMotionStds * std::sqrt(motion.height_var) / motion.height;
+  for (std::size_t i = 0; i < kNumCues; ++i) {
+    CueReport& report = (*observations)[i].report;
+    if (!kCueTable[i].measures_height || report.status != CueStatus::kUsed) continue;
+    if (std::abs(std::log(report.height / motion.height)) > most)
+      report.status = CueStatus::kFailed;
+  }
 }
 
 void GroundEstimator::Impl::fuse(const CueFrame& frame, const FramePrior& prior,
@@ -253,6 +289,7 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   if (starts) {
     start_filter(*observations, &filter);
     residuals.reset();
+    motion_gap = 0.0;
     trial = {0, 0, true};
   }
   if (!filter.started()) return;
@@ -264,6 +301,7 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   path.road = RoadPart::kUnderCar;
   path.gated = false;
   filter.fuse(path);
+  follow_motion_gap((*observations)[kCueMotion]);
   fuse_cues(true, &filter, observations);
   const bool rejected = any_height(*observations, CueStatus::kGated);
   const bool used = any_height(*observations, CueStatus::kUsed);
@@ -274,6 +312,14 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   const bool dense_used = (*observations)[kCueDense].report.status == CueStatus::kUsed;
   residuals.add({prior.context, frame.chord.direction, dense_used ? &dense_cue.last() : nullptr},
                 filter.ahead());
+}
+
+/// The other cues may agree among themselves on a plane that the road's speed contradicts.
+void GroundEstimator::Impl::follow_motion_gap(const Observation& motion) {
+  if (motion.report.status != CueStatus::kUsed) return;
+  const double gap = std::log(motion.report.height) - filter.state()(2);
+  motion_gap += kMotionGapShare * (gap - motion_gap);
+  motion_gap_std = std::sqrt(motion.report.height_var) / motion.report.height;
 }
 
 /// A start that the next images do not confirm was none.
@@ -339,7 +385,8 @@ ScaleEstimate GroundEstimator::Impl::scale(const VoOutput& vo, const FramePrior&
   scale.log_scale = std::log(camera_height.height_m) - filter.state()(2);
   // A single height may be wrong by more than its own image can tell.
   const double doubt = config.filter.start_doubt_std / std::max(1, trial.num_used);
-  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt;
+  const double gap = std::max(0.0, std::abs(motion_gap) - kMostMotionGapStds * motion_gap_std);
+  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt + gap * gap;
   const bool confirmed = !trial.open || trial.num_used >= config.filter.start_confirmations;
   scale.known = unit_proven && confirmed && scale.var <= square(config.ego.most_log_scale_std);
   if (prior.ln_height_var > 0.0) {

@@ -61,6 +61,8 @@ void OrientationCheck::add(const Eigen::Vector2d& xy, double rho, double rho_std
 
 void OrientationCheck::end() { judge(evidence()); }
 
+void OrientationCheck::see_road() { judge(kMostEvidence); }
+
 /// Returns how much this image speaks for an upright camera; negative when it speaks against it.
 double OrientationCheck::evidence() {
   if (above_.size() >= kMinSideTracks && below_.size() >= kMinSideTracks) {

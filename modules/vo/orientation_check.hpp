@@ -45,6 +45,8 @@ class OrientationCheck {
   void add(const Eigen::Vector2d& xy, double rho, double rho_std);
   /// Ends the image and judges it.
   void end();
+  /// The road was seen to pass below the camera (RoadMotion).
+  void see_road();
 
   /// Tracking was lost, and the camera was not watched for a while: the verdict stays, and can be
   /// disproved soon.

@@ -28,7 +28,8 @@ Pipeline::Pipeline(const VoConfig& config, const CameraModel& camera, std::uint6
       motion_(config),
       zero_motion_(config, camera),
       initializer_(config, camera, seed),
-      orientation_(static_cast<std::size_t>(track_capacity(config))) {
+      orientation_(static_cast<std::size_t>(track_capacity(config))),
+      road_(camera) {
   scratch_.reserve(static_cast<std::size_t>(track_capacity(config)));
 }
 
@@ -40,7 +41,10 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
   if (bad == VoReason::kNone) map_.newest_image().build(input.image);
   probe.mark("pyramid");
 
-  if (input.is_discontinuous) break_off();
+  if (input.is_discontinuous) {
+    break_off();
+    road_.reset();
+  }
   if (bad != VoReason::kNone) {
     coast(bad);
   } else if (is_broken_off_) {
@@ -57,6 +61,9 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
     track(probe);
   }
   report(input);
+  map_epoch_ = out_.scale_epoch;
+  road_.update(input.image, bad == VoReason::kNone, time_.dt_s, &out_);
+  probe.mark("road");
   judge_orientation();
   probe.mark("output");
   return out_;
@@ -64,16 +71,17 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
 
 /// Returns whether the image has the camera's size. Clears out_ and sets time_.
 bool Pipeline::accept(const VoInput& input) {
-  const std::int32_t epoch = out_.scale_epoch;
+  const std::int32_t published_epoch = out_.scale_epoch;
   out_ = VoOutput{};
   out_.capture_us = input.capture_us;
   out_.seq = input.seq;
-  out_.scale_epoch = epoch;
+  out_.scale_epoch = published_epoch;
   if (input.image.empty() || input.image.width_px != camera_.width_px ||
       input.image.height_px != camera_.height_px) {
     out_.reason = VoReason::kNoCalibration;  // the calibration is of another size
     return false;
   }
+  out_.scale_epoch = map_epoch_;
   const bool first = last_seq_ < 0;
   time_ = {input.seq, last_seq_, first ? 0.0 : input.interval_s, unplaced_s_};
   unplaced_s_ = 0.0;
@@ -281,9 +289,13 @@ void Pipeline::judge_orientation() {
   if (out_.scale_epoch != oriented_epoch_) orientation_.loosen();
   oriented_epoch_ = out_.scale_epoch;
   const bool was_upside_down = orientation_.verdict() == Orientation::kUpsideDown;
-  if (out_.status == VoStatus::kOk) observe_orientation();
+  if (road_.sees_road()) {
+    orientation_.see_road();
+  } else if (out_.status == VoStatus::kOk && out_.reason != VoReason::kRoadMotion) {
+    observe_orientation();
+  }
   const Orientation now = orientation_.verdict();
-  if (was_upside_down && now != Orientation::kUpsideDown) break_off();
+  if (was_upside_down && now != Orientation::kUpsideDown && !road_.sees_road()) break_off();
   if (out_.status == VoStatus::kLost) return;
   if (now == Orientation::kUpsideDown) {
     out_.status = VoStatus::kLost;

@@ -9,7 +9,8 @@
 ///      The pose is one of a moving camera (handle_motion) or of one that does not translate
 ///      (handle_zero_motion). Without enough inliers, Initializer starts again.
 ///   4. report() derives the output from the refined poses.
-///   5. judge_orientation() withholds motions of a camera that is upside down, and marks them while
+///   5. RoadOdometry replaces the translation when the road shows another one.
+///   6. judge_orientation() withholds motions of a camera that is upside down, and marks them while
 ///      that is not known.
 ///
 /// Frames:
@@ -28,6 +29,7 @@
 #include "modules/vo/local_map.hpp"
 #include "modules/vo/motion_predictor.hpp"
 #include "modules/vo/orientation_check.hpp"
+#include "modules/vo/road/road_odometry.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/zero_motion_detector.hpp"
 
@@ -63,9 +65,11 @@ class Pipeline {
   ZeroMotionDetector zero_motion_;
   Initializer initializer_;
   OrientationCheck orientation_;
+  RoadOdometry road_;
 
   FrameTime time_;
   std::int64_t last_seq_ = -1;       // number of the previous image; -1 before the first image
+  std::int32_t map_epoch_ = 0;       // number of the map's unit of length
   std::int32_t oriented_epoch_ = 0;  // scale epoch of the last verdict on the orientation
   bool is_broken_off_ = false;       // the next usable image begins a new map
   bool is_map_doubted_ = false;      // the same, and the motion so far carries on

@@ -75,6 +75,7 @@ enum class VoReason : std::int8_t {
   kImplausible = 25,
   kCalibrationDoubted = 26,
   kOrientationUnproven = 27,
+  kRoadMotion = 28,
 };
 
 struct VoInput {
@@ -134,6 +135,11 @@ struct VoOutput {
   double rms_residual_px = 0.0;     ///< of the inliers
 
   FixedVector<RoadPoint, kMaxRoadPoints> road_points;
+
+  /// [vo] Height of the camera above the road, by the speed at which the road passes; NaN while that
+  /// is not seen.
+  double road_height = kNan;
+  double road_height_std = kNan;
 };
 
 /// Call update() once per image, in order of time. The results depend on nothing but configuration,

@@ -44,6 +44,7 @@ static_assert(same(VoReason::kMotionMissing, vo_motion_t::REASON_MOTION_MISSING)
 static_assert(same(VoReason::kImplausible, vo_motion_t::REASON_IMPLAUSIBLE));
 static_assert(same(VoReason::kCalibrationDoubted, vo_motion_t::REASON_CALIBRATION_DOUBTED));
 static_assert(same(VoReason::kOrientationUnproven, vo_motion_t::REASON_ORIENTATION_UNPROVEN));
+static_assert(same(VoReason::kRoadMotion, vo_motion_t::REASON_ROAD_MOTION));
 static_assert(sizeof(vo_motion_t::road_points_cam) / sizeof(vo_motion_t::road_points_cam[0]) ==
               kMaxRoadPoints);
 static_assert(sizeof(vo_motion_t::window_seq) / sizeof(vo_motion_t::window_seq[0]) ==
@@ -150,13 +151,14 @@ void to_wire(const VoOutput& output, vo_motion_t* message) {
   message->median_parallax_px = static_cast<float>(output.median_parallax_px);
   message->rms_residual_px = static_cast<float>(output.rms_residual_px);
   points_to_wire(output, message);
+  message->road_height = output.road_height;
+  message->road_height_std = output.road_height_std;
 }
 
 const char* from_wire(const vo_motion_t& message, VoOutput* output) {
   if (message.status < vo_motion_t::STATUS_OK || message.status > vo_motion_t::STATUS_LOST)
     return "VO motion: unknown status";
-  if (message.reason < vo_motion_t::REASON_NONE ||
-      message.reason > vo_motion_t::REASON_ORIENTATION_UNPROVEN)
+  if (message.reason < vo_motion_t::REASON_NONE || message.reason > vo_motion_t::REASON_ROAD_MOTION)
     return "VO motion: unknown reason";
   if (std::isinf(message.scale_carry_std) || message.scale_carry_std < 0.0)
     return "VO motion: the standard deviation of the scale is negative or infinite";
@@ -165,6 +167,12 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
   if (!std::isnan(message.interval_s) &&
       !(message.interval_std_s >= 0.0 && std::isfinite(message.interval_std_s)))
     return "VO motion: the standard deviation of the interval is negative or not finite";
+  const bool has_height = !std::isnan(message.road_height);
+  if (has_height && !(message.road_height > 0.0 && std::isfinite(message.road_height) &&
+                      message.road_height_std > 0.0 && std::isfinite(message.road_height_std)))
+    return "VO motion: the height above the road is not positive and finite";
+  output->road_height = message.road_height;
+  output->road_height_std = has_height ? message.road_height_std : kNan;
   output->capture_us = message.utime;
   output->seq = message.seq;
   output->session = message.session;

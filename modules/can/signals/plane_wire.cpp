@@ -95,7 +95,7 @@ constexpr Signal kGroundPlaneDetailSignals[] = {
      when_received<Plane>([](const Plane& m) { return cues_used(m); }),
      "Sum of the cues that entered this frame's plane: 1 dense image alignment, 2 triangulated "
      "points, 4 objects.",
-     kGroundPlaneCueNames,
+     std::span(kGroundPlaneCueNames).first(kNumCueBits),
      "",
      true},
 };

@@ -10,7 +10,13 @@
 namespace plumb {
 
 /// Index of a cue in every list of cues; same numbers as ground_plane_t.CUE_*.
-enum CueId : std::size_t { kCueDense = 0, kCuePoints = 1, kCueObjects = 2, kNumCues = 3 };
+enum CueId : std::size_t {
+  kCueDense = 0,
+  kCuePoints = 1,
+  kCueObjects = 2,
+  kCueMotion = 3,
+  kNumCues = 4
+};
 
 struct CueEntry {
   const char* name = nullptr;  ///< prefix of its columns
@@ -23,6 +29,7 @@ inline constexpr std::array<CueEntry, kNumCues> kCueTable{{
     {"dense", true},
     {"points", true},
     {"objects", false},
+    {"motion", true},
 }};
 static_assert(kCueTable.back().name != nullptr, "a cue has no entry");
 
