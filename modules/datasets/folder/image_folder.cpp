@@ -1,6 +1,7 @@
 #include "modules/datasets/folder/image_folder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <optional>
@@ -18,17 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using Numbers = std::optional<std::vector<std::int64_t>>;
 
+constexpr std::array kExtensions{".jpg", ".jpeg", ".png",  ".bmp", ".pgm",
+                                 ".ppm", ".tif",  ".tiff", ".webp"};
 constexpr int kMostGapNotes = 5;
 constexpr double kLatestTime_s = 4e9;  // the year 2096
-
-bool is_image(const fs::path& path) {
-  if (path.filename().string().front() == '.') return false;
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  const std::vector<std::string>& known = image_extensions();
-  return std::find(known.begin(), known.end(), extension) != known.end();
-}
 
 void sort_names(std::vector<ImageName>* names) {
   const bool by_time = are_named_by_time(*names);
@@ -42,7 +36,7 @@ std::vector<ImageName> list_names(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError("no image folder " + folder.string());
   std::vector<ImageName> names;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (!entry.is_directory() && is_image(entry.path()))
+    if (!entry.is_directory() && is_image_name(entry.path()))
       names.push_back(read_image_name(entry.path()));
   }
   if (names.empty()) throw InputError(folder.string() + " has no image (jpg, png, ...)");
@@ -52,7 +46,7 @@ std::vector<ImageName> list_names(const fs::path& folder) {
       [](const ImageName& a, const ImageName& b) { return a.pieces == b.pieces; });
   if (twin != names.end()) {
     throw InputError(twin->path.string() + " and " + (twin + 1)->path.filename().string() +
-                     " have the same number");
+                     " name the same frame");
   }
   return names;
 }
@@ -127,10 +121,12 @@ void note_gaps(ImageFolder* folder) {
 
 }  // namespace
 
-const std::vector<std::string>& image_extensions() {
-  static const std::vector<std::string> extensions{".jpg", ".jpeg", ".png",  ".bmp", ".pgm",
-                                                   ".ppm", ".tif",  ".tiff", ".webp"};
-  return extensions;
+bool is_image_name(const fs::path& path) {
+  if (path.filename().string().starts_with('.')) return false;
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
 ImageFolder list_image_folder(const ImageFolderOptions& options) {

@@ -39,10 +39,11 @@ struct ImageFolderOptions {
   std::filesystem::path times;  ///< empty: times.txt in the folder or beside it, if there is one
 };
 
-/// What the names of image files end in, in lower case; upper case counts, too.
-[[nodiscard]] const std::vector<std::string>& image_extensions();
+/// True for names that end in jpg, jpeg, png, bmp, pgm, ppm, tif, tiff or webp, in either case, and
+/// do not begin with a point.
+[[nodiscard]] bool is_image_name(const std::filesystem::path& path);
 
-/// Lists the files with an image extension that are not hidden. Reads no image.
+/// Lists the files that have the name of an image. Reads no image.
 [[nodiscard]] ImageFolder list_image_folder(const ImageFolderOptions& options);
 
 }  // namespace plumb

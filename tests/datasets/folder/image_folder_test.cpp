@@ -112,9 +112,9 @@ TEST_F(ImageFolderTest, NumbersOfWhichNearlyAllAreMissingDoNotCount) {
   expect_contains(listed.notes.front(), "taken as consecutive");
 }
 
-TEST_F(ImageFolderTest, RefusesTwoImagesOfOneNumber) {
+TEST_F(ImageFolderTest, RefusesTwoImagesOfOneFrame) {
   add({"frame_1.jpg", "frame_01.png", "frame_2.jpg"});
-  expect_contains(error(10.0), "frame_01.png and frame_1.jpg have the same number");
+  expect_contains(error(10.0), "frame_01.png and frame_1.jpg name the same frame");
 }
 
 TEST_F(ImageFolderTest, NanosecondsMicrosecondsAndMillisecondsInNamesAreTimes) {
