@@ -59,7 +59,7 @@ void add_options(plumb::CommandLine* app, Arguments* arguments) {
                   "times of a folder's images, one per line, s [times.txt in it or above it]")
       .excludes(rate);
   app->add_option("--compress", arguments->compress,
-                  "none: plain pixels; jpeg: quality 95, about a quarter of the size")
+                  "none: plain pixels; jpeg: quality 95, about a third of the size")
       .check(plumb::one_of({"none", "jpeg"}))
       .capture_default_str();
   app->add_option("--start", arguments->options.start,
