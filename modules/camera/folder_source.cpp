@@ -1,5 +1,7 @@
 #include "modules/camera/folder_source.hpp"
 
+#include <utility>
+
 #include "modules/datasets/folder/grey_image.hpp"
 #include "modules/datasets/kitti/sequence.hpp"
 #include "modules/datasets/text.hpp"
@@ -8,10 +10,9 @@
 namespace plumb {
 
 FolderSource::FolderSource(const ImageFolderOptions& options)
-    : folder_(list_image_folder(options)), image_(load_grey_image(folder_.images.front().path)) {
-  const bool is_absolute = folder_.images.front().capture_us >= kOdometryEpoch_us;
-  epoch_us_ = is_absolute ? 0 : kOdometryEpoch_us;
-}
+    : folder_(list_image_folder(options)),
+      epoch_us_(folder_.images.front().capture_us < kOdometryEpoch_us ? kOdometryEpoch_us : 0),
+      image_(load_grey_image(folder_.images.front().path)) {}
 
 void FolderSource::complete(CameraConfig* config) const {
   complete_size(folder_.images.front().path.string(), image_.cols, image_.rows, config);
@@ -23,9 +24,8 @@ bool FolderSource::read(GreyFrame* frame) {
   if (next_ > 0) {  // the constructor read the first one
     cv::Mat image = load_grey_image(entry.path);
     if (image.size() != image_.size()) {
-      throw UsageError(format("%s is %d x %d pixels, the images before it are %d x %d",
-                              entry.path.c_str(), image.cols, image.rows, image_.cols,
-                              image_.rows));
+      throw UsageError(format("%s is %dx%d, the images before it are %dx%d", entry.path.c_str(),
+                              image.cols, image.rows, image_.cols, image_.rows));
     }
     image_ = std::move(image);
   }

@@ -28,14 +28,15 @@ class RecordedSource {
   /// Throws InputError when the recording is damaged.
   [[nodiscard]] virtual bool read(GreyFrame* frame) = 0;
 
-  /// Number of frames of the recording as it is stated there; 0 when it is not.
+  /// Number of frames that the recording says it has; 0 when it does not say.
   [[nodiscard]] virtual std::int64_t num_frames() const = 0;
+
   /// What the user should know about the recording, as sentences.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
-/// Writes the size of the recording's images to `config`. Throws UsageError when `config` states
-/// another one.
+/// Writes the size of a recording's images to `config`. Throws UsageError, which names `file`, when
+/// `config` states another one.
 void complete_size(const std::string& file, int width_px, int height_px, CameraConfig* config);
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 #include "modules/camera/video_source.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
@@ -8,10 +9,18 @@
 #include "platform/process.hpp"
 
 namespace plumb {
+namespace {
+
+/// Keeps FFmpeg from printing what this source says in its own words. A level that the user has
+/// set stays.
+void silence_ffmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); }
+
+}  // namespace
 
 VideoSource::VideoSource(const std::string& file) : file_(file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) throw UsageError("cannot read " + file);
+  silence_ffmpeg();
   // These two backends read only files. Others would take the name for
   // a pipeline or an image series.
   if (!capture_.open(file, cv::CAP_FFMPEG) && !capture_.open(file, cv::CAP_OPENCV_MJPEG))

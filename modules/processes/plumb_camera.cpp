@@ -1,4 +1,4 @@
-/// plumb-camera: V4L2 device, KITTI folder, image folder or video -> CAMERA, CAMERA_CALIBRATION
+/// plumb-camera: V4L2 device, video, folder of images or KITTI folder -> CAMERA, CAMERA_CALIBRATION
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/utils/logger.hpp>
@@ -14,6 +14,7 @@
 #include "modules/camera/video_source.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "platform/command_line.hpp"
+#include "platform/log.hpp"
 #include "platform/process.hpp"
 
 namespace {
@@ -35,7 +36,7 @@ void declare(plumb::CommandLine& app, Options* options) {
       app.add_option("--kitti", options->kitti, "KITTI folder: image_<n>, times.txt, calib.txt");
   plumb::Option video = app.add_option("--video", options->video, "video file");
   plumb::Option images =
-      app.add_option("--images", options->images, "folder of images in the order of their names");
+      app.add_option("--images", options->images, "folder of images, in the order of their names");
   app.add_option("--rate", options->rate_hz,
                  "images/s of --images; default: times.txt, or times in the names")
       .check(plumb::within(0.1, 1000.0))
@@ -65,6 +66,7 @@ class CameraProcess {
           plumb::ImageFolderOptions{options.images, options.rate_hz, {}});
     }
     if (recording_ != nullptr) {
+      for (const std::string& note : recording_->notes()) plumb::log_line("%s", note.c_str());
       recording_->complete(&config);
       output_.emplace(process, config, folder);
       player_.emplace(process, *recording_, *output_, options.speed);
@@ -73,7 +75,7 @@ class CameraProcess {
     const std::string& device = options.device.empty() ? config.device : options.device;
     if (device.empty()) {
       throw plumb::UsageError(
-          "no source: give --device, --kitti, --images, --video or camera.device");
+          "no source: give --device, --video, --images, --kitti or camera.device");
     }
     device_.emplace(config, device);
     device_->open_first(&config);
@@ -92,8 +94,8 @@ class CameraProcess {
 }  // namespace
 
 int main(int argc, char** argv) {
-  plumb::Process process(
-      {"camera", "Camera, image folder or video -> CAMERA", plumb::kHealthCamera});
+  plumb::Process process({"camera", "Camera, video, folder of images or KITTI folder -> CAMERA",
+                          plumb::kHealthCamera});
   // OpenCV is silenced, so that each error is reported once and by this process.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::PlumbConfig config;

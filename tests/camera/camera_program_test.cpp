@@ -182,6 +182,24 @@ TEST_F(PlumbCamera, AMaskFileBesideTheConfigurationCovers) {
   EXPECT_EQ(run.calibration.camera_height_m, 1.65);
 }
 
+TEST_F(PlumbCamera, PlaysAFolderOfImagesAtItsRate) {
+  const KittiFolder folder;
+  for (const int i : {9, 10, 11, 14}) folder.write_image(i);
+  folder.write("camera.toml",
+               "[camera]\nfx_px = 80.5\nfy_px = 81.5\ncx_px = 47.25\ncy_px = 31.75\n");
+  const Published run = run_camera({"--config", folder.path() + "/camera.toml", "--images",
+                                    folder.path() + "/image_0", "--rate", "25", "--speed", "0"});
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  ASSERT_EQ(run.images.size(), 4U);
+  EXPECT_EQ(run.images[3].seq, 14);
+  EXPECT_EQ(run.images[3].capture_us - run.images[0].capture_us, 200'000);
+  EXPECT_EQ(cv::norm(KittiFolder::image(14), run.images[3].image, cv::NORM_INF), 0.0);
+  EXPECT_EQ(run.calibration.width, KittiFolder::kWidth);
+  EXPECT_EQ(run.calibration.cy_px, 31.75);
+  EXPECT_NE(run.output.find("2 images are missing before 000014.png"), std::string::npos)
+      << run.output;
+}
+
 TEST_F(PlumbCamera, StopsCleanlyOnASignal) {
   const KittiFolder folder;
   folder.fill(0, 3);
@@ -214,7 +232,11 @@ TEST_F(PlumbCamera, RefusesBadInputWithOneSentenceAndCode2) {
       {{"--video", "/nowhere.mp4"}, "cannot read /nowhere.mp4"},
       {{"--device", "/dev/null"}, "is not a V4L2 device"},
       {{"--kitti", folder.path(), "--speed", "-1"}, "--speed"},
+      {{"--images", "/nowhere"}, "no image folder /nowhere"},
+      {{"--images", folder.path()}, "has no image"},
+      {{"--kitti", folder.path(), "--rate", "10"}, "--rate"},
       {{"--kitti", folder.path(), "--video", "x"}, "excludes"},
+      {{"--kitti", folder.path(), "--images", "x"}, "excludes"},
       {{"--device", "/dev/null", "--speed", "2"}, "excludes"},
       {{"--sped", "1"}, "--sped"},
       {{"--config", folder.path() + "/mask.toml", "--kitti", folder.path()},

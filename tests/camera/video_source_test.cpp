@@ -31,6 +31,7 @@ std::string write_video(const test::TempFolder& folder, int num_frames) {
 TEST(VideoSource, DeliversGreyFramesAtTheFilesPace) {
   const test::TempFolder folder;
   VideoSource source(write_video(folder, 8));
+  EXPECT_EQ(source.num_frames(), 8);
   GreyFrame frame;
   for (int i = 0; i < 8; ++i) {
     ASSERT_TRUE(source.read(&frame)) << i;

@@ -84,6 +84,24 @@ TEST_F(OverwriteRefusal, Kitti2lcm) {
   }
 }
 
+TEST_F(OverwriteRefusal, Convert) {
+  folder_.write("drive.mp4", "content of drive.mp4");
+  folder_.write("drive/image_0/000001.JPG", "content of 000001.JPG");
+  fs::create_symlink("drive.mp4", folder_ / "soft.mp4");
+  for (const Call& call : std::vector<Call>{
+           {"plumb-convert", "@/drive.mp4 --camera @/config.toml --out @/soft.mp4", "RECORDING"},
+           {"plumb-convert", "@/drive.mp4 --camera @/config.toml --out @/config.toml", "--camera"},
+           {"plumb-convert", "@/drive/image_0 --camera @/config.toml --out @/drive/times.txt",
+            "times.txt"},
+           {"plumb-convert",
+            "@/drive/image_0 --camera @/config.toml --times @/est.txt --out @/est.txt", "--times"},
+           {"plumb-convert",
+            "@/drive/image_0 --camera @/config.toml --out @/drive/image_0/000001.JPG",
+            "would overwrite the input RECORDING"}}) {
+    expect_refused(call);
+  }
+}
+
 TEST_F(OverwriteRefusal, Eval) {
   for (const Call& call : std::vector<Call>{
            {"plumb-eval", "@/poses.txt @/est.txt --json @/est.txt", "the input EST"},
@@ -129,6 +147,8 @@ TEST(UnknownWords, AreRefusedWithTheNearestKnownOne) {
            {"plumb-replay", "a.lcm --pose p.txt", "unknown option --pose; did you mean --poses?"},
            {"plumb-kitti2lcm", "a --ou b", "unknown option --ou; did you mean --out?"},
            {"plumb-kitti2lcm", "a --out b --compress jpg", "jpg is none of none, jpeg; did you"},
+           {"plumb-convert", "a --out b --frames 3", "unknown option --frames"},
+           {"plumb-convert", "a --out b --rat 3", "did you mean --rate?"},
            {"plumb-eval", "a b --plot-format pgn", "did you mean png?"},
            {"plumb-eval", "placed a b c --classes cars", "did you mean car?"},
            {"plumb-eval", "a b --jsn c", "did you mean --json?"},
@@ -142,7 +162,8 @@ TEST(UnknownWords, AreRefusedWithTheNearestKnownOne) {
            {"plumb-synth", "--out a --lead lorry", "lorry is none of none, car, truck"},
            {"plumb-vo", "--sed 3", "did you mean --seed?"},
            {"plumb-can", "--interfaces can0", "did you mean --interface?"},
-           {"plumb-camera", "--kiti a", "did you mean --kitti?"}}) {
+           {"plumb-camera", "--kiti a", "did you mean --kitti?"},
+           {"plumb-camera", "--image a", "did you mean --images?"}}) {
     test::expect_refused(folder, call.program, call.arguments, call.sentence);
   }
 }

@@ -1,4 +1,7 @@
-/// Writes LCM messages to a log.
+/// Writes LCM messages to a log file.
+///
+/// Errors:
+///   Functions throw LogError.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +15,7 @@ namespace plumb {
 
 class MessageLog {
  public:
-  /// Creates or replaces the file. Throws LogError, as the other functions do.
+  /// Creates or replaces the file.
   explicit MessageLog(const std::string& path) : log_(path) {}
 
   /// Appends one message at the time `log_us`.
@@ -23,6 +26,8 @@ class MessageLog {
     message.encode(buffer_.data(), 0, size);
     log_.write(log_us, channel.name, buffer_);
   }
+
+  /// Passes everything written to the system and closes the file.
   void close() { log_.close(); }
 
  private:

@@ -1,4 +1,10 @@
-/// Reads an image file of a usual format as 8-bit grey.
+/// Reads an image file of any usual format as 8-bit grey.
+///
+/// Formats:
+///   Those of OpenCV, told apart by the first bytes of the file, whatever its name is.
+/// Errors:
+///   Damage that the libraries fill with grey or black and only warn of is an error, too: a PNG or
+///   a JPEG without its end.
 #pragma once
 
 #include <filesystem>

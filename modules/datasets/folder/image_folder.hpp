@@ -1,13 +1,16 @@
 /// Lists the images of a folder in order of time, whatever they are called.
 ///
 /// Order:
-///   By the text before the last number of the name, then by that number, then by the name.
+///   That of the names, in which numbers compare by their value: frame_9 is before frame_10. Names
+///   that are times are in the order of the times.
+/// Number:
+///   The number in the name, when the names differ in nothing else. Missing numbers leave a gap.
+///   Numbers that all are multiples of n apart are divided by n. Otherwise the images are
+///   consecutive, from 0.
 /// Time:
-///   1. A file with one time per image [s], when there is one.
-///   2. The names, when all of them are times: nanoseconds (19 digits), microseconds (16),
-///      milliseconds (13), or seconds with a decimal point, since 1970.
-///   3. A stated rate. Numbers in the names count frames, so that missing ones leave their gap;
-///      numbers that all differ by a multiple of n count every n-th frame.
+///   1. A stated rate: the number of frames since the first, divided by it.
+///   2. A file of times [s]: one row per image, or one per number in the names, as KITTI has them.
+///   3. The names, when all of them end in a time (image_name.hpp).
 /// Errors:
 ///   Functions throw InputError.
 #pragma once
@@ -36,8 +39,11 @@ struct ImageFolderOptions {
   std::filesystem::path times;  ///< empty: times.txt in the folder or beside it, if there is one
 };
 
-/// Lists the files that end in jpg, jpeg, png, bmp, pgm, ppm, tif, tiff or webp, in upper or lower
-/// case.
+/// True for names that end in jpg, jpeg, png, bmp, pgm, ppm, tif, tiff or webp, in either case, and
+/// do not begin with a point.
+[[nodiscard]] bool is_image_name(const std::filesystem::path& path);
+
+/// Lists the files that have the name of an image. Reads no image.
 [[nodiscard]] ImageFolder list_image_folder(const ImageFolderOptions& options);
 
 }  // namespace plumb

@@ -1,12 +1,11 @@
 #include "modules/datasets/kitti/png_image.hpp"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.hpp"
+#include "modules/datasets/file_bytes.hpp"
 
 namespace plumb {
 namespace {
@@ -19,14 +18,6 @@ std::uint32_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = (value << 8U) | bytes[at + i];
   return value;
-}
-
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(file)),
-                                  std::istreambuf_iterator<char>());
-  if (!file && !file.eof()) throw InputError("cannot read " + path.string());
-  return bytes;
 }
 
 /// True when the list of chunks reaches its final IEND.
@@ -43,11 +34,13 @@ bool chunks_complete(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
+bool is_png(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= sizeof kSignature &&
+         std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
+}
+
 const char* read_png_header(std::span<const std::uint8_t> bytes, PngHeader* header) {
-  if (bytes.size() < sizeof kSignature ||
-      std::memcmp(bytes.data(), kSignature, sizeof kSignature) != 0) {
-    return bytes.empty() ? "is empty" : "is not a PNG image";
-  }
+  if (!is_png(bytes)) return bytes.empty() ? "is empty" : "is not a PNG image";
   if (!chunks_complete(bytes)) return "is cut off before the image ends";
   if (std::memcmp(bytes.data() + 12, "IHDR", 4) != 0 || bytes.size() < 33)
     return "has no PNG header";
@@ -61,7 +54,11 @@ const char* read_png_header(std::span<const std::uint8_t> bytes, PngHeader* head
 }
 
 cv::Mat load_grey_png(const std::filesystem::path& path, bool colour_allowed) {
-  const std::vector<std::uint8_t> bytes = read_bytes(path);
+  return decode_grey_png(read_bytes(path), path, colour_allowed);
+}
+
+cv::Mat decode_grey_png(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& path,
+                        bool colour_allowed) {
   PngHeader header;
   if (const char* why = read_png_header(bytes, &header))
     throw InputError(path.string() + " " + why);

@@ -17,6 +17,9 @@ struct PngHeader {
   bool colour = false;  ///< true for anything but plain grey: RGB, palette or alpha
 };
 
+/// True when `bytes` begin as those of a PNG.
+[[nodiscard]] bool is_png(std::span<const std::uint8_t> bytes);
+
 /// Fills `header` and returns null when `bytes` are a PNG with all its chunks, and else returns the
 /// reason. libpng alone would fill a truncated image with black and only warn.
 [[nodiscard]] const char* read_png_header(std::span<const std::uint8_t> bytes, PngHeader* header);
@@ -25,5 +28,9 @@ struct PngHeader {
 /// Throws InputError for a file that cannot be read, is truncated or corrupt, does not have 8 bits
 /// per channel, or is in colour although that is not allowed.
 [[nodiscard]] cv::Mat load_grey_png(const std::filesystem::path& path, bool colour_allowed);
+
+/// The same for the `bytes` of the file `path`, which were read before.
+[[nodiscard]] cv::Mat decode_grey_png(const std::vector<std::uint8_t>& bytes,
+                                      const std::filesystem::path& path, bool colour_allowed);
 
 }  // namespace plumb

@@ -1,5 +1,8 @@
 #include "tools/run/convert/camera_file.hpp"
 
+#include <utility>
+
+#include "core/input_error.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/datasets/kitti/calibration.hpp"
 #include "platform/config.hpp"
@@ -7,9 +10,7 @@
 namespace plumb {
 namespace {
 
-namespace fs = std::filesystem;
-
-CameraConfig read_calib_txt(const fs::path& path) {
+CameraConfig read_calib_txt(const std::filesystem::path& path) {
   const CalibrationFile file(path);
   const CameraModel camera = read_projection(file, "P0").model;
   CameraConfig config;
@@ -26,22 +27,19 @@ CameraConfig read_calib_txt(const fs::path& path) {
 
 }  // namespace
 
-CameraConfig read_camera_file(const fs::path& path) {
+CameraConfig read_camera_file(const std::filesystem::path& path) {
   if (path.extension() == ".txt") return read_calib_txt(path);
   PlumbConfig config;
   load_config(path.string(), &config);
-  return config.camera;
-}
-
-fs::path find_camera_file(const fs::path& recording) {
-  const fs::path absolute = fs::absolute(recording / "").parent_path();
-  const fs::path inside = fs::is_directory(recording) ? absolute : absolute.parent_path();
-  for (const fs::path& folder : {inside, inside.parent_path()}) {
-    for (const char* name : {"camera.toml", "calib.txt"}) {
-      if (fs::is_regular_file(folder / name)) return folder / name;
-    }
+  const CameraConfig& camera = config.camera;
+  const std::pair<const char*, double> needed[] = {{"camera.fx_px", camera.fx_px},
+                                                   {"camera.fy_px", camera.fy_px},
+                                                   {"camera.cx_px", camera.cx_px},
+                                                   {"camera.cy_px", camera.cy_px}};
+  for (const auto& [key, value] : needed) {
+    if (value == 0.0) throw InputError(path.string() + " does not state " + key);
   }
-  return {};
+  return camera;
 }
 
 }  // namespace plumb

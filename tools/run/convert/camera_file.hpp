@@ -1,4 +1,4 @@
-/// Reads what describes a camera beside its recording.
+/// Reads the file that describes the camera of a recording.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,9 @@
 
 namespace plumb {
 
-/// Reads a TOML file with [camera], as plumb-camera takes it, or a KITTI calib.txt, of which P0,
-/// residual_k1, residual_k2, camera_height_m and readout_s count. Throws InputError or ConfigError.
+/// Reads the settings `camera.*` of a TOML file, or a KITTI calib.txt (a name that ends in .txt),
+/// of which P0, residual_k1, residual_k2, camera_height_m and readout_s count. Throws ConfigError,
+/// or InputError also when focal length or principal point are not stated.
 [[nodiscard]] CameraConfig read_camera_file(const std::filesystem::path& path);
-
-/// camera.toml or calib.txt in the folder of a recording, or in the one above; empty for none.
-[[nodiscard]] std::filesystem::path find_camera_file(const std::filesystem::path& recording);
 
 }  // namespace plumb

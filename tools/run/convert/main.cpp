@@ -1,5 +1,6 @@
-/// plumb-convert: converts a video file or a folder of images to an LCM log.
+/// plumb-convert: converts a video or a folder of images to an LCM log for plumb-replay.
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <opencv2/core/utils/logger.hpp>
@@ -8,8 +9,10 @@
 #include "core/input_error.hpp"
 #include "modules/camera/folder_source.hpp"
 #include "modules/camera/video_source.hpp"
+#include "modules/datasets/folder/companion.hpp"
 #include "modules/datasets/text.hpp"
 #include "platform/command_line.hpp"
+#include "platform/log.hpp"
 #include "platform/overwrite_guard.hpp"
 #include "tools/run/convert/camera_file.hpp"
 #include "tools/run/convert/convert.hpp"
@@ -18,114 +21,120 @@
 
 namespace {
 
-constexpr const char* kFooter =
-    R"(RECORDING is a video file, or a folder of images (jpg, png, bmp, pgm, tif, webp; colour becomes grey). The images
-are taken in the order of the numbers in their names. The log holds what plumb-camera would publish: rectified by the
-camera file, masked by its camera.mask_* settings.
+namespace fs = std::filesystem;
 
-The camera file is TOML with [camera] (docs/add_a_camera.md), or a KITTI calib.txt. Without --camera, camera.toml or
-calib.txt beside the recording is used.
+constexpr const char* kFooter =
+    R"(RECORDING is a video file, or a folder of images (jpg, png, bmp, pgm, ppm, tif, webp) in the order of their names,
+in which frame_9 is before frame_10. Colour becomes grey. The log has what plumb-camera would publish: rectified and
+masked as the camera file says.
+
+The camera file is TOML with [camera] (docs/add_a_camera.md), or a KITTI calib.txt.
+
+Times of images come from --rate, from a file of times, or from names that end in a time since 1970. Numbers in the
+names count frames, so that missing images leave their gap.
 
 Examples
   plumb-convert dashcam.mp4 --camera camera.toml --out drive.lcm
-  plumb-convert frames/ --rate 20 --camera camera.toml --compress jpeg --out drive.lcm
+  plumb-convert frames --rate 20 --camera camera.toml --compress jpeg --out drive.lcm
   plumb-replay drive.lcm --csv drive.csv --poses drive.txt)";
 
 struct Arguments {
-  std::filesystem::path recording;
-  std::filesystem::path camera;
-  plumb::ImageFolderOptions folder;
-  plumb::RecordingOptions recording_options;
+  fs::path recording;
+  fs::path camera;
+  fs::path times;
+  double rate_hz = 0.0;
   std::string compress = "none";
+  plumb::RecordingOptions options;
 };
 
 void add_options(plumb::CommandLine* app, Arguments* arguments) {
   app->footer(kFooter);
   app->add_option("RECORDING", arguments->recording, "video file or folder of images").required();
-  app->add_option("--out", arguments->recording_options.out, "log to write").required();
+  app->add_option("--out", arguments->options.out, "log to write").required();
   app->add_option("--camera", arguments->camera,
-                  "camera file [camera.toml or calib.txt beside it]");
-  plumb::Option rate = app->add_option("--rate", arguments->folder.rate_hz, "images/s of a folder")
+                  "camera file [camera.toml or calib.txt in the recording's folder or above it]");
+  plumb::Option rate = app->add_option("--rate", arguments->rate_hz, "images/s of a folder")
                            .check(plumb::within(0.1, 1000.0));
-  app->add_option("--times", arguments->folder.times,
-                  "file with one time per image of a folder, s [times.txt in it or beside it]")
+  app->add_option("--times", arguments->times,
+                  "times of a folder's images, one per line, s [times.txt in it or above it]")
       .excludes(rate);
   app->add_option("--compress", arguments->compress,
-                  "none: plain pixels; jpeg: quality 95, about a quarter of the size")
+                  "none: plain pixels; jpeg: quality 95, about a third of the size")
       .check(plumb::one_of({"none", "jpeg"}))
       .capture_default_str();
-  app->add_option("--start", arguments->recording_options.start, "first frame number")
+  app->add_option("--start", arguments->options.start,
+                  "first frame number: that of a name, or counted from 0")
       .check(plumb::at_least(0));
-  app->add_option("--end", arguments->recording_options.end, "last frame number")
-      .check(plumb::at_least(0));
+  app->add_option("--end", arguments->options.end, "last frame number").check(plumb::at_least(0));
 }
 
-std::unique_ptr<plumb::RecordedSource> open_recording(Arguments* arguments) {
-  const bool is_folder = std::filesystem::is_directory(arguments->recording);
-  if (is_folder) {
-    arguments->folder.folder = arguments->recording;
-    return std::make_unique<plumb::FolderSource>(arguments->folder);
+/// Looks for the camera file beside the recording when none was stated.
+void find_camera(Arguments* arguments) {
+  if (!arguments->camera.empty()) return;
+  arguments->camera = plumb::find_companion(arguments->recording, {"camera.toml", "calib.txt"});
+  if (arguments->camera.empty()) {
+    throw plumb::InputError("no camera file: neither --camera, nor camera.toml or calib.txt in " +
+                            arguments->recording.string() + " or above it");
   }
-  if (arguments->folder.rate_hz > 0.0 || !arguments->folder.times.empty())
-    throw plumb::InputError("--rate and --times go with a folder; a video has its own times");
-  return std::make_unique<plumb::VideoSource>(arguments->recording.string());
 }
 
 void refuse_overwriting(const Arguments& arguments) {
   plumb::OverwriteGuard guard;
-  guard.reads("--camera", arguments.camera).reads("--times", arguments.folder.times);
-  if (std::filesystem::is_directory(arguments.recording)) {
-    guard.reads_folder("RECORDING", arguments.recording, {".txt", ".toml", ".png", ".jpg"});
-  } else {
-    guard.reads("RECORDING", arguments.recording);
-  }
-  guard.writes("--out", arguments.recording_options.out).check();
-}
-
-plumb::CameraConfig read_camera(Arguments* arguments) {
-  if (arguments->camera.empty()) {
-    arguments->camera = plumb::find_camera_file(arguments->recording);
-    if (arguments->camera.empty()) {
-      throw plumb::InputError(
-          "no camera file: neither --camera nor camera.toml or calib.txt beside " +
-          arguments->recording.string());
+  guard.reads("--camera", arguments.camera).reads("--times", arguments.times);
+  guard.reads("RECORDING", arguments.recording);
+  if (fs::is_directory(arguments.recording)) {
+    guard.reads("times.txt", plumb::find_companion(arguments.recording, {"times.txt"}));
+    for (const auto& entry : fs::directory_iterator(arguments.recording)) {
+      if (plumb::is_image_name(entry.path())) guard.reads("RECORDING", entry.path());
     }
-    std::cerr << "plumb-convert: camera from " << arguments->camera.string() << "\n";
   }
-  const plumb::CameraConfig camera = plumb::read_camera_file(arguments->camera);
-  if (!(camera.fx_px > 0.0 && camera.fy_px > 0.0)) {
-    throw plumb::InputError(arguments->camera.string() +
-                            " does not state camera.fx_px and camera.fy_px");
-  }
-  return camera;
+  guard.writes("--out", arguments.options.out).check();
 }
 
-int run(Arguments arguments) {
-  if (!std::filesystem::exists(arguments.recording))
-    throw plumb::InputError("cannot read " + arguments.recording.string());
-  plumb::CameraConfig camera = read_camera(&arguments);
-  refuse_overwriting(arguments);
-  plumb::catch_stop_signals();
-  const std::unique_ptr<plumb::RecordedSource> source = open_recording(&arguments);
-  source->complete(&camera);
-  for (const std::string& note : source->notes()) std::cerr << "plumb-convert: " << note << "\n";
-  plumb::RecordingOptions& options = arguments.recording_options;
-  options.jpeg = arguments.compress == "jpeg";
-  options.mask_folder = arguments.camera.parent_path();
-  const plumb::RecordingResult result = plumb::convert_recording(source.get(), camera, options);
-  std::cout << plumb::format("%s: %lld frames of %dx%d, %.1f s, %.1f MB%s\n", options.out.c_str(),
-                             static_cast<long long>(result.num_frames), result.width_px,
-                             result.height_px, result.duration_s,
-                             1e-6 * static_cast<double>(result.log_bytes),
-                             result.stopped ? "; stopped early" : "");
+std::unique_ptr<plumb::RecordedSource> open_recording(const Arguments& arguments) {
+  if (fs::is_directory(arguments.recording)) {
+    return std::make_unique<plumb::FolderSource>(
+        plumb::ImageFolderOptions{arguments.recording, arguments.rate_hz, arguments.times});
+  }
+  if (arguments.rate_hz > 0.0 || !arguments.times.empty())
+    throw plumb::InputError("--rate and --times are for a folder; a video has times of its own");
+  return std::make_unique<plumb::VideoSource>(arguments.recording.string());
+}
+
+void print_result(const plumb::RecordingResult& result, const plumb::CameraConfig& camera,
+                  const Arguments& arguments) {
+  std::cout << plumb::format(
+      "%s: %lld frames of %dx%d, %.1f s, %.1f MB; camera from %s%s\n",
+      arguments.options.out.c_str(), static_cast<long long>(result.num_frames), camera.width_px,
+      camera.height_px, result.duration_s, 1e-6 * static_cast<double>(result.log_bytes),
+      arguments.camera.c_str(), result.stopped ? "; stopped early" : "");
   if (result.num_faulty > 0) {
-    std::cerr << plumb::format("plumb-convert: warning: %lld frames are dark, flat or frozen\n",
-                               static_cast<long long>(result.num_faulty));
+    plumb::log_line("warning: %lld frames are black, flat or frozen",
+                    static_cast<long long>(result.num_faulty));
   }
-  if (camera.camera_height_m <= 0.0) {
-    std::cerr << "plumb-convert: warning: the camera file states no camera.camera_height_m; the "
-                 "scale will be that of ground.camera_height_m\n";
+  if (result.concern != nullptr) plumb::log_line("warning: %s", result.concern);
+  if (camera.camera_height_m == 0.0) {
+    plumb::log_line(
+        "warning: the camera file states no camera_height_m; the scale will be that of "
+        "ground.camera_height_m");
   }
+}
+
+int run(Arguments* arguments) {
+  if (!fs::exists(arguments->recording))
+    throw plumb::InputError("cannot read " + arguments->recording.string());
+  plumb::RecordingOptions& options = arguments->options;
+  if (options.start && options.end && *options.end < *options.start)
+    throw plumb::InputError("--end is before --start");
+  find_camera(arguments);
+  refuse_overwriting(*arguments);
+  plumb::CameraConfig camera = plumb::read_camera_file(arguments->camera);
+  options.mask_folder = arguments->camera.parent_path();
+  options.jpeg = arguments->compress == "jpeg";
+  plumb::catch_stop_signals();
+  const std::unique_ptr<plumb::RecordedSource> source = open_recording(*arguments);
+  source->complete(&camera);
+  print_result(plumb::convert_recording(source.get(), camera, options), camera, *arguments);
   return 0;
 }
 
@@ -134,8 +143,9 @@ int run(Arguments arguments) {
 int main(int argc, char** argv) {
   // OpenCV is silenced, so that each error is reported once and by this program.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  plumb::set_log_name("plumb-convert");
   Arguments arguments;
   plumb::CommandLine app("Converts a video or a folder of images to an LCM log", "plumb-convert");
   add_options(&app, &arguments);
-  return plumb::tool_main(&app, argc, argv, [&] { return run(arguments); });
+  return plumb::tool_main(&app, argc, argv, [&] { return run(&arguments); });
 }

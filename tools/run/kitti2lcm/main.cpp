@@ -32,7 +32,7 @@ void add_options(plumb::CommandLine* app, plumb::SequenceOptions* sequence,
       .check(plumb::within(0, 3))
       .capture_default_str();
   app->add_option("--compress", *compress,
-                  "none: plain pixels; jpeg: quality 95, about a quarter of the size")
+                  "none: plain pixels; jpeg: quality 95, about a third of the size")
       .check(plumb::one_of({"none", "jpeg"}))
       .capture_default_str();
   app->add_option("--poses", sequence->poses,
