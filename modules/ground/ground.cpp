@@ -27,12 +27,10 @@ namespace {
 constexpr int kStartProven = 3;
 constexpr int kStartFailed = 3;
 
-// Standard deviations of the road's speed by which the height of another cue may differ from it.
-constexpr double kMostMotionStds = 3.0;
 // Weight of a new image in the running mean of the gap between the road's speed and the filter, and
 // how many standard deviations of the speed it may have.
-constexpr double kMotionGapShare = 0.1;
-constexpr double kMostMotionGapStds = 2.0;
+constexpr double kMotionGapShare = 0.5;
+constexpr double kMostMotionGapStds = 0.5;
 
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
@@ -83,7 +81,6 @@ struct GroundEstimator::Impl {
   void fuse(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void fuse_height(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void report(const CueFrame& frame, const FramePrior& prior, const Observations& observations);
-  static void hold_against_motion(Observations* observations);
   void try_start(bool used, bool rejected);
   void follow_motion_gap(const Observation& motion);
   void diagnose(const CueFrame& frame, const FramePrior& prior);
@@ -259,20 +256,6 @@ Observations GroundEstimator::Impl::measure(const CueFrame& frame, FramePrior* p
   }
   hold_against_motion(&observations);
   return observations;
-}
-
-/// What is attached to the camera, or texture that compression has smeared, may align better with a
-/// plane that the road's speed contradicts.
-void GroundEstimator::Impl::hold_against_motion(Observations* observations) {
-  const CueReport& motion = (*observations)[kCueMotion].report;
-  if (motion.status != CueStatus::kUsed) return;
-  const double most = kMostMotionStds * std::sqrt(motion.height_var) / motion.height;
-  for (std::size_t i = 0; i < kNumCues; ++i) {
-    CueReport& report = (*observations)[i].report;
-    if (!kCueTable[i].measures_height || report.status != CueStatus::kUsed) continue;
-    if (std::abs(std::log(report.height / motion.height)) > most)
-      report.status = CueStatus::kFailed;
-  }
 }
 
 void GroundEstimator::Impl::fuse(const CueFrame& frame, const FramePrior& prior,

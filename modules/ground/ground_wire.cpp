@@ -128,8 +128,7 @@ const char* step_from_wire(const ego_motion_t& message, EgoOutput* ego) {
 const char* ego_from_wire(const ego_motion_t& message, EgoOutput* ego) {
   if (message.status < ego_motion_t::STATUS_OK || message.status > ego_motion_t::STATUS_LOST)
     return "ego motion: unknown status";
-  if (message.reason < 0 ||
-      message.reason > static_cast<std::int8_t>(VoReason::kRoadMotion))
+  if (message.reason < 0 || message.reason > static_cast<std::int8_t>(VoReason::kRoadMotion))
     return "ego motion: unknown reason";
   ego->status = static_cast<EgoStatus>(message.status);
   ego->reason = static_cast<VoReason>(message.reason);

@@ -392,7 +392,7 @@ TEST(GroundEstimator, MarksEveryStageInEveryFrame) {
     VoOutput vo;
     test::script_vo(footage().poses, k, run.script, &vo);
     run.estimator.update({&vo, footage().images[static_cast<std::size_t>(k)].view()}, probe);
-    EXPECT_EQ(probe.names(), "begin pyramid dense points objects fuse ego");
+    EXPECT_EQ(probe.names(), "begin pyramid dense points objects motion fuse ego");
   }
 }
 

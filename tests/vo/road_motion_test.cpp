@@ -21,21 +21,21 @@ class RoadMotionTest : public ::testing::Test {
 
   /// [1/s] The true speed in heights of the camera.
   [[nodiscard]] double true_speed() const {
-    return drive_.step_m / kInterval_s / test::kRoadHeight;
+    return drive_.step_m / kInterval_s / plumb::test::kRoadHeight;
   }
-  [[nodiscard]] test::GreyImage image(int k) const {
-    return test::render(camera_, poses_[static_cast<std::size_t>(k)], shutter_, 7U);
+  [[nodiscard]] plumb::test::GreyImage image(int k) const {
+    return plumb::test::render(camera_, poses_[static_cast<std::size_t>(k)], shutter_, 7U);
   }
   [[nodiscard]] VoOutput vo(int k) const {
     VoOutput out;
-    test::script_vo(poses_, k, script_, &out);
+    plumb::test::script_vo(poses_, k, script_, &out);
     return out;
   }
 
-  CameraModel camera_ = test::scene_camera();
-  test::Drive drive_;
-  test::Shutter shutter_;
-  test::VoScript script_;
+  CameraModel camera_ = plumb::test::scene_camera();
+  plumb::test::Drive drive_;
+  plumb::test::Shutter shutter_;
+  plumb::test::VoScript script_;
   std::vector<Se3> poses_;
 };
 
@@ -59,7 +59,7 @@ TEST_F(RoadMotionTest, MeasuresADarkRoadAsWell) {
 
 TEST_F(RoadMotionTest, IsNotSureOfTheSameImageAgainAndAgain) {
   RoadMotion motion(camera_);
-  const test::GreyImage still = image(0);
+  const plumb::test::GreyImage still = image(0);
   for (int k = 1; k < 40; ++k) {
     motion.take(still.view(), VoOutput{}, true, kInterval_s);
     EXPECT_FALSE(motion.estimate().sure) << k;
@@ -108,7 +108,7 @@ TEST_F(RoadMotionTest, TheOdometryLeavesASoundMotionAsItIsAndStatesTheHeight) {
   EXPECT_EQ(out.reason, VoReason::kNone);
   EXPECT_EQ(out.scale_epoch, 0);
   EXPECT_TRUE(out.T_prev_cam.t == vo(kNumImages - 1).T_prev_cam.t);
-  EXPECT_NEAR(out.road_height * script_.metres_per_vo / test::kRoadHeight, 1.0, 0.06);
+  EXPECT_NEAR(out.road_height * script_.metres_per_vo / plumb::test::kRoadHeight, 1.0, 0.06);
   EXPECT_GT(out.road_height_std, 0.0);
 }
 

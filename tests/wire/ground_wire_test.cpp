@@ -98,7 +98,7 @@ TEST(GroundWire, RefusesUnknownNumbersInThePlane) {
   EXPECT_EQ("ground plane: unknown status", refused_plane([](auto* m) { m->status = 4; }));
   EXPECT_EQ("ground plane: unknown reason", refused_plane([](auto* m) { m->reason = -1; }));
   const std::string wrong_number = "ground plane: wrong number of cues";
-  EXPECT_EQ(wrong_number, refused_plane([](auto* m) { m->num_cues = 4; })) << "3 are there";
+  EXPECT_EQ(wrong_number, refused_plane([](auto* m) { m->num_cues = 5; })) << "4 are there";
   EXPECT_EQ(wrong_number, refused_plane([](auto* m) { m->num_cues = -1; }));
   EXPECT_EQ(wrong_number, refused_plane([](auto* m) {
               m->num_cues = ground_plane_t::MAX_CUES + 1;
@@ -152,7 +152,7 @@ TEST(GroundWire, TheMessageNamesTheCuesOfTheTable) {
 
 TEST(GroundWire, RefusesAMotionThatIsNone) {
   EXPECT_EQ("ego motion: unknown status", refused_ego([](auto* m) { m->status = 6; }));
-  EXPECT_EQ("ego motion: unknown reason", refused_ego([](auto* m) { m->reason = 28; }));
+  EXPECT_EQ("ego motion: unknown reason", refused_ego([](auto* m) { m->reason = 29; }));
   EXPECT_EQ("ego motion: a pose is not a pose",
             refused_ego([](auto* m) { m->q_world_cam[3] = 2; }));
   EXPECT_EQ("ego motion: not a covariance",

@@ -77,7 +77,7 @@ TEST(VoWire, RefusesCountsAndNumbersOutOfRange) {
   EXPECT_EQ("", refusal([](vo_motion_t*) {}));
   EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = 6; }));
   EXPECT_EQ("VO motion: unknown status", refusal([](vo_motion_t* m) { m->status = -1; }));
-  EXPECT_EQ("VO motion: unknown reason", refusal([](vo_motion_t* m) { m->reason = 28; }));
+  EXPECT_EQ("VO motion: unknown reason", refusal([](vo_motion_t* m) { m->reason = 29; }));
   const std::string interval =
       "VO motion: the interval between the images is not positive and finite";
   const double infinite = std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@ namespace plumb {
 namespace {
 
 // Number of images that share one error: that of the pitch, which changes slowly.
-constexpr double kCorrelatedImages = 20.0;
+constexpr double kCorrelatedImages = 60.0;
 
 /// z = ln h = value(0).
 Linearisation observe_height(const Eigen::Vector3d& value, const Eigen::Vector3d& plane) {

@@ -20,10 +20,10 @@ constexpr double kLeastApart_s = 0.03;
 constexpr double kMostSlope = 0.3;
 constexpr double kHeadingTime_s = 5.0;
 constexpr double kPitchMeanTime_s = 1.0;
-// While VO's translation is not believed, its direction counts less, the more so the
-// farther it is off.
+// While VO's translation is not believed, its direction counts less, and not at all far
+// off.
 constexpr double kDoubtedPitchTime_s = 2.0;
-constexpr double kMostDoubtedTurn = 0.02;
+constexpr double kMostDoubtedTurn = 0.1;
 constexpr double kSteadyTime_s = 1.2;
 
 }  // namespace
@@ -31,7 +31,6 @@ constexpr double kSteadyTime_s = 1.2;
 void RoadMotion::reset() {
   speed_.reset();
   direction_.setZero();
-  pitch_drift_ = 0.0;
   num_directions_ = 0;
   num_images_ = 0;
   num_past_ = 0;
@@ -57,23 +56,22 @@ void RoadMotion::take(const ImageView& image, const VoOutput& vo, bool trusts_di
   remember();
 }
 
-/// The pitch turns against VO's rotation, whose steady error is learned (a critically damped
-/// observer). The heading stays: a car that turns drives where it looks.
+/// The pitch turns against VO's rotation. The heading stays: a car that turns drives where it
+/// looks.
 void RoadMotion::follow_direction(const VoOutput& vo, bool trusts_direction, double dt_s) {
   if (num_directions_ > 0) {
     const Eigen::Vector3d turned = vo.T_prev_cam.R.transpose() * direction_.homogeneous();
-    direction_.y() = turned.y() / turned.z() + pitch_drift_ * dt_s;
+    direction_.y() = turned.y() / turned.z();
   }
   const Eigen::Vector3d& t = vo.T_prev_cam.t;
   if (vo.status != VoStatus::kOk || !(t.z() > 0.0)) return;
   const Eigen::Vector2d slope = t.head<2>() / t.z();
   if (slope.norm() > kMostSlope) return;
-  const double most = trusts_direction || num_directions_ == 0 ? kMostSlope : kMostDoubtedTurn;
-  const Eigen::Vector2d change = (slope - direction_).cwiseMax(-most).cwiseMin(most);
+  const Eigen::Vector2d change = slope - direction_;
+  if (!trusts_direction && change.norm() > kMostDoubtedTurn) return;
   const double pitch_time_s = trusts_direction ? kPitchMeanTime_s : kDoubtedPitchTime_s;
   direction_.x() += weight_of_new(dt_s, kHeadingTime_s, num_directions_) * change.x();
   direction_.y() += weight_of_new(dt_s, pitch_time_s, num_directions_) * change.y();
-  pitch_drift_ += dt_s / square(2.0 * pitch_time_s) * change.y();
   ++num_directions_;
 }
 

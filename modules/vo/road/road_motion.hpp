@@ -62,7 +62,6 @@ class RoadMotion {
   RoadFeatures finder_;
   RoadSpeed speed_;
   Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();
-  double pitch_drift_ = 0.0;  // [rad/s] error of VO's pitch rate
   int num_directions_ = 0;
   double time_s_ = 0.0;
   Eigen::Matrix3d R_first_cam_ = Eigen::Matrix3d::Identity();

@@ -7,8 +7,9 @@
 namespace plumb::vo {
 namespace {
 
-// What the posterior of the speed does not know: the slope of the road ahead, the lens.
-constexpr double kLeastSpeedStd = 0.03;
+// What the posterior of the speed does not know: 0.1 degrees of pitch, the slope of the road ahead
+// and the lens.
+constexpr double kLeastSpeedStd = 0.05;
 // Standard deviation of the direction of travel [rad].
 constexpr double kDirectionStd = 0.01;
 

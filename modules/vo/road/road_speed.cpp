@@ -30,6 +30,12 @@ constexpr double kLeastSquares = 4.0;
 
 // The peak must hold this share, and be clearly faster than the slowest speed of the grid.
 constexpr double kSureShare = 0.9;
+// Mean correlation of the road. Of eleven drives, played backwards or forwards, peaks that were no
+// road had at most 0.28 in 95 % of the images, and the road at least 0.33 but on one clip.
+// A road that was seen may have a bare stretch.
+constexpr double kLeastNewSupport = 0.3;
+constexpr double kLeastHeldSupport = 0.15;
+constexpr double kSupportTime_s = 0.5;
 constexpr double kSlowestSure = 6.0;
 constexpr double kPeakRatio = 0.15;
 constexpr double kPeakWidth = 0.5;
@@ -67,6 +73,8 @@ void RoadSpeed::reset() {
   for (std::size_t p = 0; p < kNumPitches; ++p)
     probability_[p].fill(std::exp(-0.5 * square(pitch_of(p) / kPitchStd)));
   normalize();
+  support_ = support_now_ = 0.0;
+  is_supported_ = false;
 }
 
 void RoadSpeed::update(std::span<const RoadPair> pairs, double dt_s) {
@@ -86,6 +94,22 @@ void RoadSpeed::update(std::span<const RoadPair> pairs, double dt_s) {
       probability_[p][v] *= std::exp(scratch_[p][v] - most);
   }
   normalize();
+  follow_support(pairs, dt_s);
+}
+
+/// The probability always has a peak; only the correlation there says whether the road is seen.
+void RoadSpeed::follow_support(std::span<const RoadPair> pairs, double dt_s) {
+  support_now_ = 0.0;
+  if (!pairs.empty()) {
+    const RoadSpeedEstimate at = estimate();
+    const auto speed = static_cast<std::size_t>(std::lround(at.speed / kSpeedStep));
+    const auto pitch = static_cast<std::size_t>(
+        std::lround(at.pitch_error / kPitchStep + 0.5 * static_cast<double>(kNumPitches - 1)));
+    support_now_ = agreement(pairs, pitch, std::min(speed, kNumSpeeds - 1)) /
+                   static_cast<double>(pairs.size());
+  }
+  support_ += std::min(1.0, dt_s / kSupportTime_s) * (support_now_ - support_);
+  is_supported_ = support_ > (is_supported_ ? kLeastHeldSupport : kLeastNewSupport);
 }
 
 void RoadSpeed::spread_speed(double dt_s) {
@@ -173,7 +197,8 @@ RoadSpeedEstimate RoadSpeed::estimate() const {
   }
   mean /= share;
   const double var = std::max(0.0, mean_square / share - square(mean));
-  return {share > kSureShare && mean > kSlowestSure, mean, std::sqrt(var), pitch_error};
+  const bool sure = share > kSureShare && mean > kSlowestSure && is_supported_;
+  return {sure, mean, std::sqrt(var), std::min(support_, support_now_), pitch_error};
 }
 
 }  // namespace plumb::vo

@@ -30,9 +30,10 @@ struct RoadPair {
 };
 
 struct RoadSpeedEstimate {
-  bool sure = false;         ///< the other fields are an estimate; else nothing is known
-  double speed = 0.0;        ///< [1/s]
-  double speed_std = 0.0;    ///< [1/s]
+  bool sure = false;       ///< the other fields are an estimate; else nothing is known
+  double speed = 0.0;      ///< [1/s]
+  double speed_std = 0.0;  ///< [1/s]
+  double support = 0.0;    ///< correlation of the road at the estimate, the less of now and lately
   double pitch_error = 0.0;  ///< to add to y/z of the assumed direction of travel, negated [rad]
 };
 
@@ -55,11 +56,15 @@ class RoadSpeed {
   void spread_speed(double dt_s);
   void spread_pitch(double dt_s);
   void normalize();
+  void follow_support(std::span<const RoadPair> pairs, double dt_s);
   [[nodiscard]] double agreement(std::span<const RoadPair> pairs, std::size_t pitch,
                                  std::size_t speed) const;
   [[nodiscard]] static double speed_of(std::size_t index);
   [[nodiscard]] static double pitch_of(std::size_t index);
 
+  double support_now_ = 0.0;
+  double support_ = 0.0;  // mean correlation at the estimate over the last images
+  bool is_supported_ = false;
   std::array<Row, kNumPitches> probability_{};
   std::array<Row, kNumPitches> scratch_{};
 };

@@ -18,6 +18,8 @@ constexpr double kMostRunawayStds = 2.0;  // of the road's speed
 // The road's speed and a car's are smooth.
 constexpr double kJumpTime_s = 0.5;
 constexpr double kMostJump = 0.08;
+// Only a road that is seen well now casts doubt: a peak that lags behind a braking car is not.
+constexpr double kLeastSupport = 0.4;
 constexpr double kDoubted_s = 0.5;
 constexpr double kSteady = 0.05;
 constexpr double kSteady_s = 5.0;
@@ -30,7 +32,7 @@ MotionSource RoadWatch::judge(const VoOutput& vo, const RoadSpeedEstimate& road,
   const bool compared = road.sure && vo.status == VoStatus::kOk && step > 0.0 && dt_s > 0.0;
   if (compared) follow_ratio(vo, road, dt_s);
   if (source_ == MotionSource::kFeatures) {
-    if (road.sure) doubt_features(vo, road, compared, dt_s);
+    if (road.sure && road.support > kLeastSupport) doubt_features(vo, road, compared, dt_s);
   } else {
     doubt_road(road.sure, compared, dt_s);
   }
