@@ -136,8 +136,8 @@ struct VoOutput {
 
   FixedVector<RoadPoint, kMaxRoadPoints> road_points;
 
-  /// [vo] Height of the camera above the road, by the speed at which the road passes; NaN while that
-  /// is not seen.
+  /// [vo] Height of the camera above the road, by the speed at which the road passes; NaN while
+  /// that is not seen.
   double road_height = kNan;
   double road_height_std = kNan;
 };
