@@ -299,7 +299,10 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
 
 /// The other cues may agree among themselves on a plane that the road's speed contradicts.
 void GroundEstimator::Impl::follow_motion_gap(const Observation& motion) {
-  if (motion.report.status != CueStatus::kUsed) return;
+  if (motion.report.status != CueStatus::kUsed) {
+    motion_gap *= 1.0 - kMotionGapShare;  // what it said holds for its own images
+    return;
+  }
   const double gap = std::log(motion.report.height) - filter.state()(2);
   motion_gap += kMotionGapShare * (gap - motion_gap);
   motion_gap_std = std::sqrt(motion.report.height_var) / motion.report.height;
