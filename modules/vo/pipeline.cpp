@@ -284,7 +284,8 @@ void Pipeline::report_motion(const Se3& T_cam_world) {
 
 /// Upside down, the motion has wrong signs and the plane is none. Then nothing is reported as
 /// valid, while tracking goes on. When the camera has been turned, a new map begins, with a unit of
-/// its own, so that nothing that was found upside down is used any more.
+/// its own, so that nothing that was found upside down is used any more. When it was upright all
+/// the time, as the road shows, the map goes on.
 void Pipeline::judge_orientation() {
   if (out_.scale_epoch != oriented_epoch_) orientation_.loosen();
   oriented_epoch_ = out_.scale_epoch;

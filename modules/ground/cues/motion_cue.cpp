@@ -8,15 +8,6 @@ namespace {
 // Number of images that share one error: that of the pitch, which changes slowly.
 constexpr double kCorrelatedImages = 60.0;
 
-/// z = ln h = value(0).
-Linearisation observe_height(const Eigen::Vector3d& value, const Eigen::Vector3d& plane) {
-  Linearisation at;
-  at.num_rows = 1;
-  at.innovation(0) = value(0) - plane(2);
-  at.jacobian(0, 2) = 1.0;
-  return at;
-}
-
 }  // namespace
 
 Observation MotionCue::measure(const CueFrame& frame, const FramePrior& prior) {

@@ -45,6 +45,10 @@ struct PlaneObservation {
 [[nodiscard]] Linearisation observe_point(const Eigen::Vector3d& centre,
                                           const Eigen::Vector3d& plane);
 
+/// z = ln h = value(0): the height alone.
+[[nodiscard]] Linearisation observe_height(const Eigen::Vector3d& value,
+                                           const Eigen::Vector3d& plane);
+
 /// z = n3 = value(0): the pitch alone.
 [[nodiscard]] Linearisation observe_pitch(const Eigen::Vector3d& value,
                                           const Eigen::Vector3d& plane);

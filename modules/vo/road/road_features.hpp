@@ -2,7 +2,7 @@
 /// and texture.
 ///
 /// The feature of a cell is the second difference of the smoothed grey values along the road. Two
-/// weights keep it between -1 and 1: one for its size against the noise of the image, so that a
+/// weights keep it between -1 and 1: one for its size against a noise of one grey level, so that a
 /// dark road counts as much as a bright one, and one against contrast along the road, because kerbs
 /// and continuous lines look the same wherever the car is on them.
 ///
@@ -11,7 +11,7 @@
 /// Units:
 ///   Grey levels in, [-] out. Lengths in heights of the camera.
 /// Memory:
-///   Four grids, in place.
+///   Three grids, in place.
 #pragma once
 
 #include <Eigen/Core>

@@ -20,11 +20,23 @@ constexpr double kLeastApart_s = 0.03;
 constexpr double kMostSlope = 0.3;
 constexpr double kHeadingTime_s = 5.0;
 constexpr double kPitchMeanTime_s = 1.0;
-// While VO's translation is not believed, its direction counts less, and not at all far
-// off.
+// While VO's translation is not believed, its direction counts less, and not at all far off.
 constexpr double kDoubtedPitchTime_s = 2.0;
 constexpr double kMostDoubtedTurn = 0.1;
 constexpr double kSteadyTime_s = 1.2;
+
+/// A feature of 0 means that the road is not seen there, and stays 0.
+float without_steady(float feature, float steady) {
+  return feature == 0.0F ? 0.0F : feature - steady;
+}
+
+/// The feature at `part` of the way from column `left` to the next one; 0 beyond the row.
+float between_columns(const float* row, std::ptrdiff_t left, float part) {
+  constexpr auto kLast = static_cast<std::ptrdiff_t>(kNumRoadColumns) - 1;
+  if (left < 0 || left > kLast || (left == kLast && part > 0.0F)) return 0.0F;
+  const float next = left < kLast ? row[left + 1] : 0.0F;
+  return row[left] + part * (next - row[left]);
+}
 
 }  // namespace
 
@@ -77,7 +89,7 @@ void RoadMotion::follow_direction(const VoOutput& vo, bool trusts_direction, dou
 
 void RoadMotion::compare(double dt_s) {
   for (std::size_t i = 0; i < features_.size(); ++i)
-    now_[i] = features_[i] == 0.0F ? 0.0F : features_[i] - steady_[i];
+    now_[i] = without_steady(features_[i], steady_[i]);
   const double last_speed = speed_.estimate().speed;
   FixedVector<RoadPair, kAges_s.size()> pairs;
   const Past* newer = nullptr;
@@ -120,19 +132,10 @@ void RoadMotion::turn(const Past& past, double speed) {
     const auto part = static_cast<float>(aside - whole);
     const auto offset = static_cast<std::ptrdiff_t>(std::clamp(whole, -1e6, 1e6));
     for (std::size_t column = 0; column < kNumRoadColumns; ++column) {
-      const std::ptrdiff_t left = static_cast<std::ptrdiff_t>(column) + offset;
-      const bool inside = left >= 0 && left + 1 < static_cast<std::ptrdiff_t>(kNumRoadColumns);
-      const bool at_end = part == 0.0F && left == static_cast<std::ptrdiff_t>(kNumRoadColumns) - 1;
       const std::size_t here = row * kNumRoadColumns + column;
-      if (!inside && !at_end) {
-        before_[here] = 0.0F;
-        continue;
-      }
-      const std::size_t from = row * kNumRoadColumns + static_cast<std::size_t>(left);
-      const float first = past.features[from];
-      const float second = at_end ? 0.0F : past.features[from + 1];
-      const float value = first + part * (second - first);
-      before_[here] = value == 0.0F ? 0.0F : value - steady_[here];
+      const float* cells = &past.features[row * kNumRoadColumns];
+      const std::ptrdiff_t left = static_cast<std::ptrdiff_t>(column) + offset;
+      before_[here] = without_steady(between_columns(cells, left, part), steady_[here]);
     }
   }
 }
@@ -140,13 +143,16 @@ void RoadMotion::turn(const Past& past, double speed) {
 void RoadMotion::remember() {
   const std::size_t newest = (next_past_ + kMostImages - 1) % kMostImages;
   if (num_past_ > 0 && time_s_ - past_[newest].time_s < kLeastApart_s) return;
-  past_[next_past_] = {features_, time_s_, R_first_cam_};
+  Past& past = past_[next_past_];
+  past.features = features_;
+  past.time_s = time_s_;
+  past.R_first_cam = R_first_cam_;
   next_past_ = (next_past_ + 1) % kMostImages;
   num_past_ = std::min(num_past_ + 1, kMostImages);
 }
 
-Eigen::Vector2d RoadMotion::direction(const RoadSpeedEstimate& estimate) const {
-  return {direction_.x(), direction_.y() - estimate.pitch_error};
+Eigen::Vector2d RoadMotion::direction() const {
+  return {direction_.x(), direction_.y() - speed_.estimate().pitch_error};
 }
 
 }  // namespace plumb::vo

@@ -41,9 +41,9 @@ class RoadMotion {
   /// Time passes without an image that can be compared.
   void miss(double dt_s);
 
-  [[nodiscard]] RoadSpeedEstimate estimate() const { return speed_.estimate(); }
+  [[nodiscard]] const RoadSpeedEstimate& estimate() const { return speed_.estimate(); }
   /// Direction of travel in cam as (x/z, y/z), with the pitch that the road shows.
-  [[nodiscard]] Eigen::Vector2d direction(const RoadSpeedEstimate& estimate) const;
+  [[nodiscard]] Eigen::Vector2d direction() const;
 
  private:
   static constexpr std::size_t kMostImages = 12;

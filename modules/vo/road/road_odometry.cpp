@@ -41,7 +41,7 @@ void RoadOdometry::update(const ImageView& image, bool usable, double dt_s, VoOu
   } else {
     motion_.miss(dt_s);
   }
-  const RoadSpeedEstimate road = motion_.estimate();
+  const RoadSpeedEstimate& road = motion_.estimate();
   sees_road_ = usable && road.sure;
   const MotionSource before = watch_.source();
   const MotionSource source = watch_.judge(*vo, road, dt_s);
@@ -83,7 +83,7 @@ void RoadOdometry::replace(const RoadSpeedEstimate& road, bool usable, double dt
     return;
   }
   const double step = unit_ * road.speed * dt_s;
-  const Eigen::Vector3d ahead = motion_.direction(road).homogeneous().normalized();
+  const Eigen::Vector3d ahead = motion_.direction().homogeneous().normalized();
   const double step_std = speed_std_ratio(road) * step;
   vo->status = usable ? VoStatus::kOk : VoStatus::kCoasting;
   vo->T_prev_cam.t = step * ahead;

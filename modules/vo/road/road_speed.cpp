@@ -21,7 +21,7 @@ constexpr double kPitchDrawTime_s = 1.0;
 // Share of the probability that is spread over everything, so that no peak is final.
 constexpr double kUniform = 1e-5;
 
-// Weight of the correlations per second of images, and the limits for one image. Images that follow
+// Weight of the correlations per second of images, and the most of one image. Images that follow
 // each other quickly share most of their errors.
 constexpr double kGain_per_s = 40.0;
 constexpr double kMostGain = 4.0;
@@ -73,7 +73,8 @@ void RoadSpeed::reset() {
   for (std::size_t p = 0; p < kNumPitches; ++p)
     probability_[p].fill(std::exp(-0.5 * square(pitch_of(p) / kPitchStd)));
   normalize();
-  support_ = support_now_ = 0.0;
+  estimate_ = {};
+  support_ = 0.0;
   is_supported_ = false;
 }
 
@@ -94,22 +95,24 @@ void RoadSpeed::update(std::span<const RoadPair> pairs, double dt_s) {
       probability_[p][v] *= std::exp(scratch_[p][v] - most);
   }
   normalize();
+  locate_peak();
   follow_support(pairs, dt_s);
 }
 
 /// The probability always has a peak; only the correlation there says whether the road is seen.
 void RoadSpeed::follow_support(std::span<const RoadPair> pairs, double dt_s) {
-  support_now_ = 0.0;
+  double now = 0.0;
   if (!pairs.empty()) {
-    const RoadSpeedEstimate at = estimate();
-    const auto speed = static_cast<std::size_t>(std::lround(at.speed / kSpeedStep));
-    const auto pitch = static_cast<std::size_t>(
-        std::lround(at.pitch_error / kPitchStep + 0.5 * static_cast<double>(kNumPitches - 1)));
-    support_now_ = agreement(pairs, pitch, std::min(speed, kNumSpeeds - 1)) /
-                   static_cast<double>(pairs.size());
+    const auto speed = static_cast<std::size_t>(std::lround(estimate_.speed / kSpeedStep));
+    const auto pitch = static_cast<std::size_t>(std::lround(
+        estimate_.pitch_error / kPitchStep + 0.5 * static_cast<double>(kNumPitches - 1)));
+    now = agreement(pairs, pitch, std::min(speed, kNumSpeeds - 1)) /
+          static_cast<double>(pairs.size());
   }
-  support_ += std::min(1.0, dt_s / kSupportTime_s) * (support_now_ - support_);
+  support_ += std::min(1.0, dt_s / kSupportTime_s) * (now - support_);
   is_supported_ = support_ > (is_supported_ ? kLeastHeldSupport : kLeastNewSupport);
+  estimate_.support = std::min(support_, now);
+  estimate_.sure = peak_share_ > kSureShare && estimate_.speed > kSlowestSure && is_supported_;
 }
 
 void RoadSpeed::spread_speed(double dt_s) {
@@ -177,7 +180,8 @@ double RoadSpeed::agreement(std::span<const RoadPair> pairs, std::size_t pitch,
   return sum;
 }
 
-RoadSpeedEstimate RoadSpeed::estimate() const {
+/// Takes the mean and the deviation of the speed around the highest peak.
+void RoadSpeed::locate_peak() {
   Row of_speed{};
   double pitch_error = 0.0;
   for (std::size_t p = 0; p < kNumPitches; ++p) {
@@ -195,10 +199,10 @@ RoadSpeedEstimate RoadSpeed::estimate() const {
     mean += of_speed[v] * speed_of(v);
     mean_square += of_speed[v] * square(speed_of(v));
   }
-  mean /= share;
-  const double var = std::max(0.0, mean_square / share - square(mean));
-  const bool sure = share > kSureShare && mean > kSlowestSure && is_supported_;
-  return {sure, mean, std::sqrt(var), std::min(support_, support_now_), pitch_error};
+  estimate_.speed = mean / share;
+  estimate_.speed_std = std::sqrt(std::max(0.0, mean_square / share - square(estimate_.speed)));
+  estimate_.pitch_error = pitch_error;
+  peak_share_ = share;
 }
 
 }  // namespace plumb::vo

@@ -34,7 +34,7 @@ struct RoadSpeedEstimate {
   double speed = 0.0;      ///< [1/s]
   double speed_std = 0.0;  ///< [1/s]
   double support = 0.0;    ///< correlation of the road at the estimate, the less of now and lately
-  double pitch_error = 0.0;  ///< to add to y/z of the assumed direction of travel, negated [rad]
+  double pitch_error = 0.0;  ///< y/z of the assumed direction of travel less the true one [rad]
 };
 
 class RoadSpeed {
@@ -45,8 +45,7 @@ class RoadSpeed {
   void reset();
   /// Takes the pairs that end in the newest image, `dt_s` after the one before.
   void update(std::span<const RoadPair> pairs, double dt_s);
-  /// The assumed pitch was changed by `change` [rad].
-  [[nodiscard]] RoadSpeedEstimate estimate() const;
+  [[nodiscard]] const RoadSpeedEstimate& estimate() const { return estimate_; }
 
  private:
   static constexpr std::size_t kNumSpeeds = 125;
@@ -56,14 +55,16 @@ class RoadSpeed {
   void spread_speed(double dt_s);
   void spread_pitch(double dt_s);
   void normalize();
+  void locate_peak();
   void follow_support(std::span<const RoadPair> pairs, double dt_s);
   [[nodiscard]] double agreement(std::span<const RoadPair> pairs, std::size_t pitch,
                                  std::size_t speed) const;
   [[nodiscard]] static double speed_of(std::size_t index);
   [[nodiscard]] static double pitch_of(std::size_t index);
 
-  double support_now_ = 0.0;
-  double support_ = 0.0;  // mean correlation at the estimate over the last images
+  RoadSpeedEstimate estimate_;
+  double peak_share_ = 0.0;  // of the probability
+  double support_ = 0.0;     // mean correlation at the estimate over the last images
   bool is_supported_ = false;
   std::array<Row, kNumPitches> probability_{};
   std::array<Row, kNumPitches> scratch_{};

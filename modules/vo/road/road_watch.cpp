@@ -30,7 +30,7 @@ constexpr double kUnseen_s = 5.0;
 MotionSource RoadWatch::judge(const VoOutput& vo, const RoadSpeedEstimate& road, double dt_s) {
   const double step = vo.T_prev_cam.t.norm();
   const bool compared = road.sure && vo.status == VoStatus::kOk && step > 0.0 && dt_s > 0.0;
-  if (compared) follow_ratio(vo, road, dt_s);
+  if (compared) follow_ratio(std::log(step / (road.speed * dt_s)), dt_s);
   if (source_ == MotionSource::kFeatures) {
     if (road.sure && road.support > kLeastSupport) doubt_features(vo, road, compared, dt_s);
   } else {
@@ -39,16 +39,15 @@ MotionSource RoadWatch::judge(const VoOutput& vo, const RoadSpeedEstimate& road,
   return source_;
 }
 
-void RoadWatch::follow_ratio(const VoOutput& vo, const RoadSpeedEstimate& road, double dt_s) {
-  const double now = std::log(vo.T_prev_cam.t.norm() / (road.speed * dt_s));
+void RoadWatch::follow_ratio(double ln_ratio, double dt_s) {
   const double usual_s = source_ == MotionSource::kRoad ? kUsualTimeOfRoad_s : kUsualTime_s;
   if (num_ratios_ > 0) {
-    jump_ +=
-        weight_of_new(dt_s, kJumpTime_s, num_ratios_ - 1) * (std::abs(now - last_ratio_) - jump_);
+    jump_ += weight_of_new(dt_s, kJumpTime_s, num_ratios_ - 1) *
+             (std::abs(ln_ratio - last_ratio_) - jump_);
   }
-  last_ratio_ = now;
-  ln_ratio_ += weight_of_new(dt_s, kRatioTime_s, num_ratios_) * (now - ln_ratio_);
-  usual_ratio_ += weight_of_new(dt_s, usual_s, num_ratios_) * (now - usual_ratio_);
+  last_ratio_ = ln_ratio;
+  ln_ratio_ += weight_of_new(dt_s, kRatioTime_s, num_ratios_) * (ln_ratio - ln_ratio_);
+  usual_ratio_ += weight_of_new(dt_s, usual_s, num_ratios_) * (ln_ratio - usual_ratio_);
   ++num_ratios_;
 }
 

@@ -34,7 +34,7 @@ class RoadWatch {
  private:
   static constexpr int kLeastRatios = 3;
 
-  void follow_ratio(const VoOutput& vo, const RoadSpeedEstimate& road, double dt_s);
+  void follow_ratio(double ln_ratio, double dt_s);
   void doubt_features(const VoOutput& vo, const RoadSpeedEstimate& road, bool compared,
                       double dt_s);
   void doubt_road(bool sure, bool compared, double dt_s);
