@@ -303,6 +303,7 @@ void Pipeline::judge_orientation() {
     out_.reason = VoReason::kImageUpsideDown;
     out_.T_prev_cam = Se3{};
     out_.road_points.clear();
+    out_.road_height = out_.road_height_std = kNan;
   } else if (now == Orientation::kUnproven) {
     out_.reason = VoReason::kOrientationUnproven;
   }

@@ -98,6 +98,24 @@ TEST_F(RoadMotionTest, TheOdometryReplacesAStandstillWhileTheRoadPasses) {
   EXPECT_NEAR(out.window[1].T_window_cam.t.norm(), out.T_prev_cam.t.norm(), 1e-9);
 }
 
+TEST_F(RoadMotionTest, TheOdometryKeepsTheReasonOfAnImageThatCannotBeUsed) {
+  RoadOdometry odometry(camera_);
+  VoOutput out;
+  for (int k = 1; k < kNumImages; ++k) {
+    const bool is_last = k == kNumImages - 1;
+    out = vo(k);
+    if (k > 6) {
+      out.status = is_last ? VoStatus::kCoasting : VoStatus::kStandstill;
+      out.reason = is_last ? VoReason::kImageDark : VoReason::kNone;
+      out.T_prev_cam = Se3{};
+    }
+    odometry.update(image(k).view(), !is_last, kInterval_s, &out);
+  }
+  EXPECT_EQ(out.status, VoStatus::kCoasting);
+  EXPECT_EQ(out.reason, VoReason::kImageDark);
+  EXPECT_GT(out.T_prev_cam.t.norm(), 0.0) << "the road's speed goes on";
+}
+
 TEST_F(RoadMotionTest, TheOdometryLeavesASoundMotionAsItIsAndStatesTheHeight) {
   RoadOdometry odometry(camera_);
   VoOutput out;

@@ -73,7 +73,8 @@ void RoadOdometry::number_epoch(MotionSource before, VoOutput* vo) {
 }
 
 void RoadOdometry::replace(const RoadSpeedEstimate& road, bool usable, double dt_s, VoOutput* vo) {
-  vo->reason = VoReason::kRoadMotion;
+  // Why an image could not be used, or not be placed, says more than where the motion comes from.
+  if (usable && has_rotation(*vo)) vo->reason = VoReason::kRoadMotion;
   vo->road_points.clear();
   vo->window.clear();
   if (!road.sure || !has_rotation(*vo)) {
