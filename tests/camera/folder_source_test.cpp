@@ -4,6 +4,7 @@
 
 #include "modules/datasets/kitti/sequence.hpp"
 #include "platform/process.hpp"
+#include "tests/camera/pattern.hpp"
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/kitti_folder.hpp"
 
@@ -27,13 +28,7 @@ TEST(FolderSource, DeliversEveryPixelTimeAndNumber) {
     ASSERT_TRUE(source.read(&frame));
     EXPECT_EQ(frame.seq, i);
     EXPECT_EQ(frame.capture_us, kOdometryEpoch_us + 50'000 * (i - 9));
-    const cv::Mat expected = test_image(i);
-    ASSERT_EQ(frame.image.width_px, expected.cols);
-    ASSERT_EQ(frame.image.height_px, expected.rows);
-    for (int v = 0; v < expected.rows; ++v) {
-      EXPECT_TRUE(
-          std::equal(frame.image.row(v), frame.image.row(v) + expected.cols, expected.ptr(v)));
-    }
+    test::expect_pixels(frame.image, test_image(i));
   }
   EXPECT_FALSE(source.read(&frame));
   EXPECT_FALSE(source.read(&frame));

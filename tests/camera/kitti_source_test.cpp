@@ -43,13 +43,7 @@ TEST(KittiSource, DeliversEveryPixelTimeAndNumber) {
     ASSERT_TRUE(source.read(&frame));
     EXPECT_EQ(frame.seq, 100 + i);
     EXPECT_EQ(frame.capture_us, kOdometryEpoch_us + 10'000'000 + 100'000 * i);
-    const cv::Mat expected = KittiFolder::image(100 + static_cast<int>(i));
-    ASSERT_EQ(frame.image.width_px, expected.cols);
-    ASSERT_EQ(frame.image.height_px, expected.rows);
-    for (int v = 0; v < expected.rows; ++v) {
-      EXPECT_TRUE(
-          std::equal(frame.image.row(v), frame.image.row(v) + expected.cols, expected.ptr(v)));
-    }
+    test::expect_pixels(frame.image, KittiFolder::image(100 + i));
   }
   EXPECT_FALSE(source.read(&frame));
   EXPECT_FALSE(source.read(&frame));

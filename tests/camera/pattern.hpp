@@ -1,6 +1,9 @@
 /// Test images: a smooth pattern that is known everywhere, and noise.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -12,6 +15,14 @@ namespace plumb::test {
 
 inline ImageView view_of(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step[0])};
+}
+
+/// Expects the size and every pixel of `expected`.
+inline void expect_pixels(const ImageView& image, const cv::Mat& expected) {
+  ASSERT_EQ(image.width_px, expected.cols);
+  ASSERT_EQ(image.height_px, expected.rows);
+  for (int v = 0; v < expected.rows; ++v)
+    EXPECT_TRUE(std::equal(image.row(v), image.row(v) + expected.cols, expected.ptr(v)));
 }
 
 /// Waves in every direction that are long enough for bilinear sampling to stay within a grey level.

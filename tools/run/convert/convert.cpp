@@ -1,9 +1,7 @@
 #include "tools/run/convert/convert.hpp"
 
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
-#include <vector>
 
 #include "core/input_error.hpp"
 #include "core/principal_point.hpp"
@@ -11,68 +9,45 @@
 #include "modules/camera/image_wire.hpp"
 #include "modules/datasets/text.hpp"
 #include "platform/log.hpp"
-#include "tools/support/message_log.hpp"
+#include "tools/support/camera_log.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr std::int64_t kCalibrationPeriod_us = 1'000'000;
-constexpr int kJpegQuality = 95;
-
 class RecordingWriter {
  public:
   RecordingWriter(const CameraConfig& config, const RecordingOptions& options)
       : options_(options), node_(config, options.mask_folder, &probe_) {
-    CameraModel camera;
-    if (const char* why = from_wire(node_.calibration(0), &camera)) throw InputError(why);
-    if (!is_principal_point_central(camera)) result_.concern = kPrincipalPointIsOff;
+    if (const char* why = from_wire(node_.calibration(0), &camera_)) throw InputError(why);
+    if (!is_principal_point_central(camera_)) result_.concern = kPrincipalPointIsOff;
   }
 
   void add(const GreyFrame& frame) {
-    if (!log_) {
-      log_.emplace(options_.out.string());
-      first_us_ = frame.capture_us;
-    }
-    if (result_.num_frames == 0 || frame.capture_us - calibration_us_ >= kCalibrationPeriod_us) {
-      calibration_us_ = frame.capture_us;
-      log_->write(frame.capture_us, kCameraCalibration, node_.calibration(frame.capture_us));
-    }
+    if (!log_) log_.emplace(options_.out, camera_, options_.jpeg);
     const image_t& image = node_.take(frame);
-    log_->write(frame.capture_us, kCamera, options_.jpeg ? compressed(frame, image) : image);
+    log_->begin_image(frame.capture_us);
+    log_->write_image(frame.seq, {image.data.data(), image.width, image.height, image.row_stride});
     if (node_.fault() != ImageFault::kNone) ++result_.num_faulty;
-    ++result_.num_frames;
-    result_.duration_s = 1e-6 * static_cast<double>(frame.capture_us - first_us_);
   }
 
   RecordingResult finish() {
     if (!log_) return result_;
-    log_->close();
-    result_.log_bytes = static_cast<std::int64_t>(std::filesystem::file_size(options_.out));
+    result_.num_frames = log_->num_images();
+    result_.duration_s = log_->duration_s();
+    result_.log_bytes = log_->close();
     return result_;
   }
-  [[nodiscard]] std::int64_t num_frames() const { return result_.num_frames; }
+  [[nodiscard]] std::int64_t num_frames() const { return log_ ? log_->num_images() : 0; }
 
  private:
-  const image_t& compressed(const GreyFrame& frame, const image_t& image) {
-    const cv::Mat pixels(image.height, image.width, CV_8U,
-                         const_cast<std::uint8_t*>(image.data.data()),
-                         static_cast<std::size_t>(image.row_stride));
-    cv::imencode(".jpg", pixels, jpeg_, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-    to_wire_jpeg(frame.capture_us, frame.seq, image.width, image.height, jpeg_, &jpeg_image_);
-    return jpeg_image_;
-  }
-
   const RecordingOptions& options_;
   NullProbe probe_;
   CameraNode node_;
-  std::optional<MessageLog> log_;
+  CameraModel camera_;
+  std::optional<CameraLog> log_;
   RecordingResult result_;
-  std::int64_t first_us_ = 0;
-  std::int64_t calibration_us_ = 0;
-  std::vector<std::uint8_t> jpeg_;
-  image_t jpeg_image_{};
 };
 
 /// Hands the frames between start and end to the writer. Reads none behind the end.

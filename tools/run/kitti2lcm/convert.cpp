@@ -1,7 +1,7 @@
 #include "tools/run/kitti2lcm/convert.hpp"
 
 #include <Eigen/Geometry>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "core/channels.hpp"
 #include "core/input_error.hpp"
@@ -12,73 +12,58 @@
 #include "modules/detections/detections_wire.hpp"
 #include "plumb/ground_truth_t.hpp"
 #include "tools/datasets/kitti_tracking/kitti_tracking.hpp"
-#include "tools/support/message_log.hpp"
+#include "tools/support/camera_log.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr std::int64_t kCalibrationPeriod_us = 1'000'000;
-constexpr int kJpegQuality = 95;
+CameraModel with_size(CameraModel camera, const cv::Mat& image) {
+  camera.width_px = image.cols;
+  camera.height_px = image.rows;
+  return camera;
+}
 
 class Converter {
  public:
   Converter(const Sequence& sequence, const ConvertOptions& options, const cv::Mat& first_image,
             std::vector<TrackingRow> boxes)
       : options_(options),
-        camera_(sequence.camera),
         boxes_(std::move(boxes)),
-        log_(options.out.string()) {
-    camera_.width_px = first_image.cols;
-    camera_.height_px = first_image.rows;
-  }
+        log_(options.out, with_size(sequence.camera, first_image), options.jpeg) {}
 
   void add(const SequenceFrame& frame, const cv::Mat& image) {
-    if (image.cols != camera_.width_px || image.rows != camera_.height_px) {
+    const CameraModel& camera = log_.camera();
+    if (image.cols != camera.width_px || image.rows != camera.height_px) {
       throw InputError(format("%s is %d x %d pixels, the images before it are %d x %d",
-                              frame.image.string().c_str(), image.cols, image.rows,
-                              camera_.width_px, camera_.height_px));
+                              frame.image.string().c_str(), image.cols, image.rows, camera.width_px,
+                              camera.height_px));
     }
-    if (result_.num_frames == 0 || frame.capture_us - calibration_us_ >= kCalibrationPeriod_us) {
-      calibration_us_ = frame.capture_us;
-      log_.write(frame.capture_us, kCameraCalibration, to_wire(camera_, frame.capture_us));
-    }
+    log_.begin_image(frame.capture_us);
     if (frame.T_world_cam || frame.plane) write_truth(frame);
-    write_image(frame, image);
+    log_.write_image(frame.seq, {image.data, image.cols, image.rows,
+                                 static_cast<std::ptrdiff_t>(image.step[0])});
     if (!options_.detections.empty()) write_detections(frame);
-    if (result_.num_frames++ == 0) first_us_ = frame.capture_us;
-    result_.duration_s = 1e-6 * static_cast<double>(frame.capture_us - first_us_);
   }
 
   ConvertResult finish() {
-    log_.close();
-    result_.log_bytes = static_cast<std::int64_t>(std::filesystem::file_size(options_.out));
+    result_.num_frames = log_.num_images();
+    result_.duration_s = log_.duration_s();
+    result_.log_bytes = log_.close();
     return result_;
   }
-  [[nodiscard]] std::int64_t num_frames() const { return result_.num_frames; }
-  [[nodiscard]] const CameraModel& camera() const { return camera_; }
+  [[nodiscard]] std::int64_t num_frames() const { return log_.num_images(); }
+  [[nodiscard]] const CameraModel& camera() const { return log_.camera(); }
 
  private:
-  void write_image(const SequenceFrame& frame, const cv::Mat& image) {
-    if (options_.jpeg) {
-      cv::imencode(".jpg", image, jpeg_, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-      to_wire_jpeg(frame.capture_us, frame.seq, image.cols, image.rows, jpeg_, &image_);
-    } else {
-      const ImageView view{image.data, image.cols, image.rows,
-                           static_cast<std::ptrdiff_t>(image.step[0])};
-      to_wire(frame.capture_us, frame.seq, view, &image_);
-    }
-    log_.write(frame.capture_us, kCamera, image_);
-  }
-
   /// An image without boxes gets an empty message, as from a detector that found nothing.
   void write_detections(const SequenceFrame& frame) {
     DetectionFrame detections = detections_of_frame(boxes_, static_cast<int>(frame.seq));
     detections.capture_us = frame.capture_us;
     result_.num_detections += static_cast<std::int64_t>(detections.detections.size());
     to_wire(detections, &detections_);
-    log_.write(frame.capture_us, kDetections, detections_);
+    log_.write(kDetections, detections_);
   }
 
   void write_truth(const SequenceFrame& frame) {
@@ -101,34 +86,27 @@ class Converter {
       for (int i = 0; i < 3; ++i) truth.normal_cam[i] = frame.plane->normal_cam[i];
       truth.height_m = frame.plane->height_m;
     }
-    log_.write(frame.capture_us, kGroundTruth, truth);
+    log_.write(kGroundTruth, truth);
   }
 
   const ConvertOptions& options_;
-  CameraModel camera_;
   std::vector<TrackingRow> boxes_;
-  MessageLog log_;
+  CameraLog log_;
   ConvertResult result_;
-  std::int64_t first_us_ = 0;
-  std::int64_t calibration_us_ = 0;
-  image_t image_;
   detections_t detections_{};
-  std::vector<std::uint8_t> jpeg_;
 };
 
 cv::Mat load_first(const Sequence& sequence) {
   const SequenceFrame& frame = sequence.frames.front();
   cv::Mat image = load_grey_png(frame.image, sequence.colour_allowed);
-  CameraModel camera = sequence.camera;
+  const CameraModel& camera = sequence.camera;
   if (camera.width_px != 0 && (camera.width_px != image.cols || camera.height_px != image.rows)) {
     throw InputError(format(
         "%s is %d x %d pixels, the calibration says %d x %d after rectification",
         frame.image.string().c_str(), image.cols, image.rows, camera.width_px, camera.height_px));
   }
-  camera.width_px = image.cols;
-  camera.height_px = image.rows;
   CameraModel checked;
-  if (const char* why = from_wire(to_wire(camera, frame.capture_us), &checked))
+  if (const char* why = from_wire(to_wire(with_size(camera, image), frame.capture_us), &checked))
     throw InputError(why);
   return image;
 }
