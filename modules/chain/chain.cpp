@@ -35,7 +35,7 @@ Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, S
           [this](const ground_plane_t& plane, const ego_motion_t& ego) {
             plane_ = &plane;
             ego_ = &ego;
-            if (ground_.output() != nullptr) mount_message_ = mount_.update(*ground_.output());
+            if (ground_.output() != nullptr) watch_mount();
           },
           models_.ground, ground_factory(config, models_)),
       mount_(without_file(config.mount)),
@@ -56,6 +56,7 @@ void Chain::take(const LogEvent& event) {
   if (event.channel == kCameraCalibration.name) take_calibration(event.data);
   if (event.channel == kCamera.name) take_image(event.data);
   if (event.channel == kDetections.name) take_detections(event.data);
+  if (event.channel == kVehicleSpeed.name) take_vehicle_speed(event.data);
 }
 
 void Chain::take_calibration(std::span<const std::uint8_t> bytes) {
@@ -114,6 +115,17 @@ void Chain::take_detections(std::span<const std::uint8_t> bytes) {
   const char* why = first_of({ground_.take_detections(message), objects_.take_detections(message)});
   objects_.expire();  // The plane of an image never comes later in a log.
   if (why != nullptr) refuse(kDetections.name, why);
+}
+
+void Chain::take_vehicle_speed(std::span<const std::uint8_t> bytes) {
+  vehicle_speed_t message;
+  if (!decode_bounded(bytes, &message)) return refuse(kVehicleSpeed.name, "not a vehicle_speed_t");
+  if (const char* why = mount_.take_speed(message)) refuse(kVehicleSpeed.name, why);
+}
+
+void Chain::watch_mount() {
+  mount_message_ = mount_.update(*ground_.output(), ground_.stated_height());
+  if (const CameraHeight* height = mount_.better_height()) ground_.correct_camera_height(*height);
 }
 
 void Chain::take_objects(const objects_t& objects) {

@@ -9,6 +9,8 @@
 ///     GROUND_PLANE       | mount (ground's own output)  | MOUNT, about once a second
 ///     and EGO_MOTION     | objects, can                 |
 ///     MOUNT              | can                          |
+///   VEHICLE_SPEED        | mount, whose height ground   |
+///                        | uses for later images        |
 ///   DETECTIONS           | ground, for later images;    |
 ///                        | objects                      | OBJECTS
 ///     OBJECTS            | can                          | CAN frames, on the sink
@@ -77,6 +79,7 @@ class Chain {
   [[nodiscard]] const GroundNode& ground() const { return ground_; }
   /// The mount as found from this log alone.
   [[nodiscard]] const MountReport& mount() const { return mount_.report(); }
+  [[nodiscard]] const HeightReport& height() const { return mount_.height_report(); }
   [[nodiscard]] const StageTimer& vo_timer() const { return vo_timer_; }
   [[nodiscard]] const StageTimer& ground_timer() const { return ground_timer_; }
 
@@ -85,6 +88,8 @@ class Chain {
   void take_image(std::span<const std::uint8_t> bytes);
   const char* take_motion(const vo_motion_t& motion);
   void take_detections(std::span<const std::uint8_t> bytes);
+  void take_vehicle_speed(std::span<const std::uint8_t> bytes);
+  void watch_mount();
   void take_objects(const objects_t& objects);
   void send_can();
   void refuse(const std::string& what, const char* why);

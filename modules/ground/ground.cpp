@@ -72,7 +72,8 @@ struct GroundEstimator::Impl {
         unit_watch(config.ego) {}
 
   CueFrame take(const GroundInput& input);
-  void take_height(const CameraHeight& height);
+  void take_height(const GroundInput& input);
+  void measure_road_step(const VoOutput& vo, bool measured);
   void watch_unit(const VoOutput& vo, CueFrame* frame);
   void follow_drift(const VoOutput& vo, bool measured);
   FramePrior predict(const CueFrame& frame);
@@ -83,6 +84,7 @@ struct GroundEstimator::Impl {
   void report(const CueFrame& frame, const FramePrior& prior, const Observations& observations);
   void try_start(bool used, bool rejected);
   void follow_motion_gap(const Observation& motion);
+  [[nodiscard]] double motion_gap_excess() const;
   void diagnose(const CueFrame& frame, const FramePrior& prior);
   [[nodiscard]] HeightMeasurement height_seen(const Observations& observations) const;
   [[nodiscard]] RoadShape road_shape(const Chord& chord) const;
@@ -137,6 +139,7 @@ const GroundOutput& GroundEstimator::update(const GroundInput& input, StageProbe
   const bool measured = any_height(observations, CueStatus::kUsed);
   m.follow_drift(*frame.vo, measured);
   m.ego.update(*frame.vo, m.scale(*frame.vo, prior, measured), normal, &m.out.ego);
+  m.measure_road_step(*frame.vo, measured);
   probe.mark("ego");
   return m.out;
 }
@@ -149,7 +152,7 @@ CueFrame GroundEstimator::Impl::take(const GroundInput& input) {
   frame.vo = &vo;
   frame.objects = input.objects;
   if (has_rotation(vo)) frame.chord = measure_chord(vo);
-  if (input.camera_height.height_m > 0.0) take_height(input.camera_height);
+  take_height(input);
   watch_unit(vo, &frame);
   row_clock.take(vo.seq, vo.capture_us);
   if (ring.fits(input.image)) {
@@ -191,12 +194,21 @@ void GroundEstimator::Impl::follow_drift(const VoOutput& vo, bool measured) {
 }
 
 /// The scale stays when the body rises or sinks: the height in VO's unit changes with the metric
-/// one.
-void GroundEstimator::Impl::take_height(const CameraHeight& height) {
-  if (filter.started() && height.height_m != camera_height.height_m) {
+/// one. When the height is only known better, the scale changes with it.
+void GroundEstimator::Impl::take_height(const GroundInput& input) {
+  const CameraHeight& height = input.camera_height;
+  if (!(height.height_m > 0.0)) return;
+  const bool moves = !input.is_height_correction && height.height_m != camera_height.height_m;
+  if (filter.started() && moves) {
     filter.change_height(std::log(height.height_m / camera_height.height_m));
   }
   camera_height = height;
+}
+
+void GroundEstimator::Impl::measure_road_step(const VoOutput& vo, bool measured) {
+  if (!measured || vo.status != VoStatus::kOk || !filter.converged()) return;
+  out.ego.road_step_heights = vo.T_prev_cam.t.norm() / filter.height();
+  out.ego.road_step_ln_var = filter.cov()(2, 2) + square(motion_gap_excess());
 }
 
 FramePrior GroundEstimator::Impl::predict(const CueFrame& frame) {
@@ -308,6 +320,11 @@ void GroundEstimator::Impl::follow_motion_gap(const Observation& motion) {
   motion_gap_std = std::sqrt(motion.report.height_var) / motion.report.height;
 }
 
+/// How much more the two differ than the road's speed may.
+double GroundEstimator::Impl::motion_gap_excess() const {
+  return std::max(0.0, std::abs(motion_gap) - kMostMotionGapStds * motion_gap_std);
+}
+
 /// A start that the next images do not confirm was none.
 void GroundEstimator::Impl::try_start(bool used, bool rejected) {
   trial.take(used);
@@ -371,7 +388,7 @@ ScaleEstimate GroundEstimator::Impl::scale(const VoOutput& vo, const FramePrior&
   scale.log_scale = std::log(camera_height.height_m) - filter.state()(2);
   // A single height may be wrong by more than its own image can tell.
   const double doubt = config.filter.start_doubt_std / std::max(1, trial.num_used);
-  const double gap = std::max(0.0, std::abs(motion_gap) - kMostMotionGapStds * motion_gap_std);
+  const double gap = motion_gap_excess();
   scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt + gap * gap;
   const bool confirmed = !trial.open || trial.num_used >= config.filter.start_confirmations;
   scale.known = unit_proven && confirmed && scale.var <= square(config.ego.most_log_scale_std);

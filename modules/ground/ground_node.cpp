@@ -33,7 +33,7 @@ void GroundNode::build() {
   const CameraModel& camera = calibration_.camera();
   decoder_.emplace(camera.width_px, camera.height_px);
   images_.emplace(camera.width_px, camera.height_px);
-  camera_height_ = camera_height_of(config_, camera);
+  stated_height_ = camera_height_ = camera_height_of(config_, camera);
   if (make_) {
     algorithm_ = make_(camera);
   } else {
@@ -149,7 +149,8 @@ void GroundNode::expire() {
 const char* GroundNode::process(const ImageFrame* frame) {
   waiting_ = false;
   probe_->begin();
-  GroundInput input{&vo_, {}, objects_->update(vo_, camera_height_), camera_height_};
+  GroundInput input{
+      &vo_, {}, objects_->update(vo_, camera_height_), camera_height_, is_height_correction_};
   const char* refused = nullptr;
   if (frame != nullptr) refused = decoder_->decode(*frame, &input.image);
   if (input.image.empty()) ++num_unpaired_;

@@ -64,8 +64,20 @@ class GroundNode {
   /// The image of a waiting motion will not come.
   void expire();
 
-  /// Takes another height of the camera over its road, from the next motion on. @pre height_m > 0
-  void set_camera_height(const CameraHeight& height) { camera_height_ = height; }
+  /// The body has risen or sunk: takes another height of the camera over its road, from the next
+  /// motion on. @pre height_m > 0
+  void set_camera_height(const CameraHeight& height) {
+    camera_height_ = height;
+    is_height_correction_ = false;
+  }
+  /// The height has become better known, and the scale with it. From the next motion on.
+  /// @pre height_m > 0
+  void correct_camera_height(const CameraHeight& height) {
+    camera_height_ = height;
+    is_height_correction_ = true;
+  }
+  /// What the calibration or the configuration states; height_m 0 before a calibration.
+  [[nodiscard]] const CameraHeight& stated_height() const { return stated_height_; }
 
   [[nodiscard]] bool calibrated() const { return algorithm_ != nullptr; }
   [[nodiscard]] bool waiting() const { return waiting_; }
@@ -102,7 +114,9 @@ class GroundNode {
   Sink sink_;
   std::int64_t session_ = 0;
   CalibrationKeeper calibration_;
+  CameraHeight stated_height_;
   CameraHeight camera_height_;
+  bool is_height_correction_ = false;
   std::optional<ImageDecoder> decoder_;
   std::optional<PendingImages> images_;
   std::unique_ptr<GroundAlgorithm> algorithm_;

@@ -11,7 +11,8 @@
 
 namespace plumb {
 
-MountNode::MountNode(const MountConfig& config) : state_file_(config.state_file), check_(config) {
+MountNode::MountNode(const MountConfig& config)
+    : state_file_(config.state_file), check_(config), height_(config) {
   std::error_code unknown;
   if (state_file_.empty() || (!std::filesystem::exists(state_file_, unknown) && !unknown)) return;
   try {
@@ -21,18 +22,33 @@ MountNode::MountNode(const MountConfig& config) : state_file_(config.state_file)
   }
 }
 
-const mount_t* MountNode::update(const GroundOutput& ground) {
+const char* MountNode::take_speed(const vehicle_speed_t& message) {
+  VehicleSpeed speed;
+  if (const char* why = from_wire(message, &speed)) return why;
+  return height_.take_speed(speed);
+}
+
+const CameraHeight* MountNode::better_height() const {
+  const bool is_stated = height_.report().num_stretches < HeightLearner::kLeastStretches;
+  return is_stated ? nullptr : &height_.report().used;
+}
+
+const mount_t* MountNode::update(const GroundOutput& ground, const CameraHeight& stated_height) {
   const bool had_reference = check_.report().reference.has_value();
   const MountStatus before = check_.report().status;
+  const HeightStatus height_before = height_.report().status;
   const MountReport& report = check_.update(ground);
+  const HeightReport& height = height_.update(ground, stated_height);
   if (!had_reference && report.reference) save();
   const bool stepped_back = ground.capture_us < published_us_;
   const bool due = stepped_back || ground.capture_us - published_us_ >= kPeriod_us;
-  if (!due && report.status == before) return nullptr;
+  const bool changed = report.status != before || height.status != height_before;
+  if (!due && !changed) return nullptr;
   published_us_ = ground.capture_us;
-  write_alarm();
-  if (report.status != before && alarm() != nullptr) log_line("%s", alarm_);
+  write_alarm(stated_height);
+  if (changed && alarm() != nullptr) log_line("%s", alarm_);
   to_wire(report, ground.capture_us, &message_);
+  to_wire(height, &message_);
   return &message_;
 }
 
@@ -47,9 +63,16 @@ void MountNode::save() const {
   }
 }
 
-void MountNode::write_alarm() {
+void MountNode::write_alarm(const CameraHeight& stated_height) {
   alarm_[0] = '\0';
   const MountReport& report = check_.report();
+  const HeightReport& height = height_.report();
+  if (height.status == HeightStatus::kContradicted) {
+    std::snprintf(alarm_, sizeof alarm_,
+                  "the camera is stated to be %.3f m above the road, the vehicle's speed says %.3f "
+                  "+- %.3f m",
+                  stated_height.height_m, height.by_vehicle.height_m, height.by_vehicle.std_m);
+  }
   if (report.status == MountStatus::kMisaligned) {
     std::snprintf(
         alarm_, sizeof alarm_,

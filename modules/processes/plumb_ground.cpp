@@ -1,4 +1,4 @@
-/// plumb-ground: CAMERA, CAMERA_CALIBRATION, VO_MOTION, DETECTIONS
+/// plumb-ground: CAMERA, CAMERA_CALIBRATION, VO_MOTION, DETECTIONS, VEHICLE_SPEED
 ///   -> GROUND_PLANE, EGO_MOTION, MOUNT
 #include <optional>
 
@@ -34,6 +34,9 @@ class GroundProcess {
                 [this](const plumb::vo_motion_t& m) { return on_motion(m); }),
         detections_(process.bus(), plumb::kDetections, plumb::Input::kOccasional,
                     [this](const plumb::detections_t& m) { return on_detections(m); }),
+        vehicle_speed_(
+            process.bus(), plumb::kVehicleSpeed, plumb::Input::kOccasional,
+            [this](const plumb::vehicle_speed_t& m) { return mount_node_.take_speed(m); }),
         image_timeout_(process.loop().timer([this] { on_timeout(); })) {
     node_.set_session(process.session());
     if (const auto camera = plumb::stated_model(config.camera)) {
@@ -98,7 +101,9 @@ class GroundProcess {
 
   void watch_mount(const plumb::GroundOutput& output) {
     const bool alarmed = mount_node_.alarm() != nullptr;
-    const plumb::mount_t* message = mount_node_.update(output);
+    const plumb::mount_t* message = mount_node_.update(output, node_.stated_height());
+    if (const plumb::CameraHeight* height = mount_node_.better_height())
+      node_.correct_camera_height(*height);
     if (message == nullptr) return;
     mount_.publish(*message);
     const char* alarm = mount_node_.alarm();
@@ -122,6 +127,7 @@ class GroundProcess {
   plumb::RawSubscriber camera_;
   plumb::Subscriber<plumb::vo_motion_t> motion_;
   plumb::Subscriber<plumb::detections_t> detections_;
+  plumb::Subscriber<plumb::vehicle_speed_t> vehicle_speed_;
   plumb::EventLoop::TimerId image_timeout_;
 };
 

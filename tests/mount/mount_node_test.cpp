@@ -22,7 +22,7 @@ class MountNodeTest : public testing::Test {
     GroundOutput output = test::straight_on({0.0, 0.0, yaw_deg * kDegree});
     for (double m = 0.0; m < distance_m; m += 0.1 * test::kSpeed_m_s) {
       output.capture_us = now_us_ += 100'000;
-      const mount_t* message = node->update(output);
+      const mount_t* message = node->update(output, {1.65, 0.01});
       if (message == nullptr) continue;
       ++num_messages;
       last_ = *message;

@@ -33,5 +33,46 @@ TEST(MountWire, AMountWithoutAReferenceSaysSo) {
   EXPECT_EQ(message.reference_std_rad[2], 0.003);
 }
 
+TEST(MountWire, WritesTheHeight) {
+  HeightReport report;
+  mount_t message;
+  to_wire(report, &message);
+  EXPECT_EQ(message.height_status, mount_t::HEIGHT_STATED);
+  EXPECT_TRUE(std::isnan(message.vehicle_height_m));
+  report.status = HeightStatus::kContradicted;
+  report.num_stretches = 12;
+  report.by_vehicle = {1.5, 0.02};
+  report.used = {1.6, 0.05};
+  to_wire(report, &message);
+  EXPECT_EQ(message.height_status, mount_t::HEIGHT_CONTRADICTED);
+  EXPECT_EQ(message.height_num_stretches, 12);
+  EXPECT_EQ(message.vehicle_height_m, 1.5);
+  EXPECT_EQ(message.vehicle_height_std_m, 0.02);
+  EXPECT_EQ(message.height_m, 1.6);
+  EXPECT_EQ(message.height_std_m, 0.05);
+}
+
+TEST(MountWire, RefusesASpeedThatCannotBe) {
+  vehicle_speed_t message{};
+  VehicleSpeed speed;
+  message.utime = 5;
+  message.speed_m_s = 20.0;
+  message.scale_std = 0.01;
+  ASSERT_EQ(from_wire(message, &speed), nullptr);
+  EXPECT_EQ(speed.time_us, 5);
+  EXPECT_EQ(speed.speed_m_s, 20.0);
+  EXPECT_EQ(speed.scale_std, 0.01);
+  message.speed_m_s = kNan;
+  EXPECT_STREQ(from_wire(message, &speed), "vehicle speed is out of range");
+  message.speed_m_s = -151.0;
+  EXPECT_STREQ(from_wire(message, &speed), "vehicle speed is out of range");
+  message.speed_m_s = 20.0;
+  message.scale_std = -0.01;
+  EXPECT_STREQ(from_wire(message, &speed), "deviation of the vehicle speed is not in [0, 1]");
+  message.scale_std = 0.01;
+  message.utime = -1;
+  EXPECT_STREQ(from_wire(message, &speed), "vehicle speed has a negative time");
+}
+
 }  // namespace
 }  // namespace plumb

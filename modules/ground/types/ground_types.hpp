@@ -88,6 +88,7 @@ struct GroundInput {
   ImageView image;               ///< image of vo->seq; empty when it did not arrive
   std::span<const ObjectsMeasurement> objects = {};  ///< of the same image (objects_queue.hpp)
   CameraHeight camera_height = {};                   ///< height_m 0: as configured or calibrated
+  bool is_height_correction = false;  ///< a new height is better known; false: the body has moved
 };
 
 /// The plane of the road ahead (`GroundConfig::road_near_m` to `road_far_m`).
@@ -122,6 +123,10 @@ struct EgoOutput {
   double distance_m = 0.0;
   double log_scale = kNan;  ///< ln(metres per [vo])
   double log_scale_std = kNan;
+  /// The step over the road in heights of the camera, which no stated height enters; NaN unless
+  /// both were measured.
+  double road_step_heights = kNan;
+  double road_step_ln_var = kNan;  ///< of its logarithm
 
   EgoOutput() { T_prev_cam.t.setConstant(kNan); }
 };

@@ -9,12 +9,16 @@
 #include "modules/camera/image_wire.hpp"
 #include "modules/datasets/text.hpp"
 #include "platform/log.hpp"
+#include "plumb/vehicle_speed_t.hpp"
 #include "tools/support/camera_log.hpp"
 #include "tools/support/progress.hpp"
 #include "tools/support/stop_flag.hpp"
 
 namespace plumb {
 namespace {
+
+/// Of the speeds in a file, which states none: that of a speedometer.
+constexpr double kVehicleSpeedScaleStd = 0.01;
 
 class RecordingWriter {
  public:
@@ -24,12 +28,14 @@ class RecordingWriter {
     if (!is_principal_point_central(camera_)) result_.concern = kPrincipalPointIsOff;
   }
 
-  void add(const GreyFrame& frame) {
+  /// `index` counts the images of the recording from 0.
+  void add(const GreyFrame& frame, std::size_t index) {
     if (!log_) log_.emplace(options_.out, camera_, options_.jpeg);
     const image_t& image = node_.take(frame);
     log_->begin_image(frame.capture_us);
     log_->write_image(frame.seq, {image.data.data(), image.width, image.height, image.row_stride});
     if (node_.fault() != ImageFault::kNone) ++result_.num_faulty;
+    if (!options_.vehicle_speeds_m_s.empty()) write_vehicle_speed(frame.capture_us, index);
   }
 
   RecordingResult finish() {
@@ -42,6 +48,18 @@ class RecordingWriter {
   [[nodiscard]] std::int64_t num_frames() const { return log_ ? log_->num_images() : 0; }
 
  private:
+  void write_vehicle_speed(std::int64_t capture_us, std::size_t index) {
+    if (index >= options_.vehicle_speeds_m_s.size()) {
+      throw InputError(format("--vehicle-speed has %zu speeds, and the recording more images",
+                              options_.vehicle_speeds_m_s.size()));
+    }
+    vehicle_speed_t message{};
+    message.utime = capture_us;
+    message.speed_m_s = options_.vehicle_speeds_m_s[index];
+    message.scale_std = kVehicleSpeedScaleStd;
+    log_->write(kVehicleSpeed, message);
+  }
+
   const RecordingOptions& options_;
   NullProbe probe_;
   CameraNode node_;
@@ -55,11 +73,11 @@ void write_frames(const RecordingOptions& options, RecordedSource* source, Progr
                   RecordingWriter* writer) {
   const std::int64_t start = options.start.value_or(0);
   const std::int64_t end = options.end.value_or(std::numeric_limits<std::int64_t>::max());
-  std::int64_t num_read = 0;
+  std::size_t num_read = 0;
   GreyFrame frame;
   while (!stop_requested() && source->read(&frame)) {
-    if (frame.seq >= start && frame.seq <= end) writer->add(frame);
-    progress->update(++num_read, writer->num_frames());
+    if (frame.seq >= start && frame.seq <= end) writer->add(frame, num_read);
+    progress->update(static_cast<std::int64_t>(++num_read), writer->num_frames());
     if (frame.seq >= end) break;
   }
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "modules/camera/camera_config.hpp"
 #include "modules/camera/recorded_source.hpp"
@@ -16,9 +17,10 @@ namespace plumb {
 
 struct RecordingOptions {
   std::filesystem::path out;
-  std::filesystem::path mask_folder;       ///< a relative camera.mask_file is relative to it
-  bool jpeg = false;                       ///< true: JPEG of quality 95; false: plain pixels
-  std::optional<std::int64_t> start, end;  ///< first and last frame number
+  std::filesystem::path mask_folder;            ///< a relative camera.mask_file is relative to it
+  bool jpeg = false;                            ///< true: JPEG of quality 95; false: plain pixels
+  std::vector<double> vehicle_speeds_m_s = {};  ///< one per image of the recording; empty: none
+  std::optional<std::int64_t> start, end;       ///< first and last frame number
 };
 
 struct RecordingResult {

@@ -10,6 +10,7 @@
 #include "modules/camera/folder_source.hpp"
 #include "modules/camera/video_source.hpp"
 #include "modules/datasets/folder/companion.hpp"
+#include "modules/datasets/number_file.hpp"
 #include "modules/datasets/text.hpp"
 #include "platform/command_line.hpp"
 #include "platform/log.hpp"
@@ -42,6 +43,7 @@ struct Arguments {
   fs::path recording;
   fs::path camera;
   fs::path times;
+  fs::path vehicle_speed;
   double rate_hz = 0.0;
   std::string compress = "none";
   plumb::RecordingOptions options;
@@ -58,6 +60,8 @@ void add_options(plumb::CommandLine* app, Arguments* arguments) {
   app->add_option("--times", arguments->times,
                   "times of a folder's images, one per line, s [times.txt in it or above it]")
       .excludes(rate);
+  app->add_option("--vehicle-speed", arguments->vehicle_speed,
+                  "speeds of the vehicle, one per line and image, m/s; written as VEHICLE_SPEED");
   app->add_option("--compress", arguments->compress,
                   "none: plain pixels; jpeg: quality 95, about a third of the size")
       .check(plumb::one_of({"none", "jpeg"}))
@@ -81,6 +85,7 @@ void find_camera(Arguments* arguments) {
 void refuse_overwriting(const Arguments& arguments) {
   plumb::OverwriteGuard guard;
   guard.reads("--camera", arguments.camera).reads("--times", arguments.times);
+  guard.reads("--vehicle-speed", arguments.vehicle_speed);
   guard.reads("RECORDING", arguments.recording);
   if (fs::is_directory(arguments.recording)) {
     guard.reads("times.txt", plumb::find_companion(arguments.recording, {"times.txt"}));
@@ -131,6 +136,10 @@ int run(Arguments* arguments) {
   plumb::CameraConfig camera = plumb::read_camera_file(arguments->camera);
   options.mask_folder = arguments->camera.parent_path();
   options.jpeg = arguments->compress == "jpeg";
+  if (!arguments->vehicle_speed.empty()) {
+    for (const plumb::NumberRow& row : plumb::read_number_rows(arguments->vehicle_speed, 1, 1))
+      options.vehicle_speeds_m_s.push_back(row.values[0]);
+  }
   plumb::catch_stop_signals();
   const std::unique_ptr<plumb::RecordedSource> source = open_recording(*arguments);
   source->complete(&camera);

@@ -11,6 +11,7 @@
 #include "modules/datasets/text.hpp"
 #include "modules/detections/detections_wire.hpp"
 #include "plumb/ground_truth_t.hpp"
+#include "plumb/vehicle_speed_t.hpp"
 #include "tools/datasets/kitti_tracking/kitti_tracking.hpp"
 #include "tools/support/camera_log.hpp"
 #include "tools/support/progress.hpp"
@@ -45,6 +46,7 @@ class Converter {
     log_.write_image(frame.seq, {image.data, image.cols, image.rows,
                                  static_cast<std::ptrdiff_t>(image.step[0])});
     if (!options_.detections.empty()) write_detections(frame);
+    if (options_.vehicle_speed && frame.T_world_cam) write_vehicle_speed(frame);
   }
 
   ConvertResult finish() {
@@ -64,6 +66,19 @@ class Converter {
     result_.num_detections += static_cast<std::int64_t>(detections.detections.size());
     to_wire(detections, &detections_);
     log_.write(kDetections, detections_);
+  }
+
+  void write_vehicle_speed(const SequenceFrame& frame) {
+    const Eigen::Vector3d t_m = frame.T_world_cam->topRightCorner<3, 1>();
+    if (last_pose_us_ != 0) {
+      vehicle_speed_t message{};
+      message.utime = (frame.capture_us + last_pose_us_) / 2;
+      message.speed_m_s =
+          (t_m - last_t_m_).norm() / (1e-6 * static_cast<double>(frame.capture_us - last_pose_us_));
+      log_.write(kVehicleSpeed, message);
+    }
+    last_pose_us_ = frame.capture_us;
+    last_t_m_ = t_m;
   }
 
   void write_truth(const SequenceFrame& frame) {
@@ -94,6 +109,8 @@ class Converter {
   CameraLog log_;
   ConvertResult result_;
   detections_t detections_{};
+  std::int64_t last_pose_us_ = 0;
+  Eigen::Vector3d last_t_m_ = Eigen::Vector3d::Zero();
 };
 
 cv::Mat load_first(const Sequence& sequence) {

@@ -2,7 +2,8 @@
 ///
 /// The log has CAMERA_CALIBRATION at the beginning and once a second, and per frame GROUND_TRUTH
 /// where there is truth, CAMERA, and DETECTIONS where there are boxes. Events carry the true
-/// capture times.
+/// capture times. VEHICLE_SPEED, when it is wanted, is the mean true speed between two images, at
+/// the time between them.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,7 @@ struct ConvertOptions {
   std::filesystem::path out;
   bool jpeg = false;                      ///< true: JPEG of quality 95; false: plain pixels
   std::filesystem::path detections = {};  ///< KITTI tracking file; empty: none
+  bool vehicle_speed = false;             ///< true: VEHICLE_SPEED from the true poses
 };
 
 struct ConvertResult {

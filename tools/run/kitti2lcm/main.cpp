@@ -41,6 +41,8 @@ void add_options(plumb::CommandLine* app, plumb::SequenceOptions* sequence,
                   "true ground planes [SEQ_DIR/gt_ground_plane*.txt]");
   app->add_option("--detections", convert->detections,
                   "boxes: KITTI tracking labels, or a tracker's output [SEQ_DIR/label_02.txt]");
+  app->add_flag("--vehicle-speed", convert->vehicle_speed,
+                "write the true speed as VEHICLE_SPEED, as if the vehicle stated it");
   app->add_option(
          "--residual-k1", sequence->residual_k1,
          "radial term of r^2 left in the rectified images [calib.txt's residual_k1, else 0.0256]")

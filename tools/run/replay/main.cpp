@@ -129,7 +129,8 @@ void print_summary(const Arguments& arguments, const Chain& replay, const Output
                         static_cast<long long>(replay.num_lost()));
   }
   std::cout << outputs.statuses().text() << mount_text(replay.mount())
-            << stage_table("vo", replay.vo_timer()) << stage_table("ground", replay.ground_timer());
+            << height_text(replay.height()) << stage_table("vo", replay.vo_timer())
+            << stage_table("ground", replay.ground_timer());
   if (!arguments.can.empty()) {
     std::cout << format("%s: %lld CAN frames\n", arguments.can.c_str(),
                         static_cast<long long>(outputs.num_can_frames()));

@@ -23,6 +23,7 @@ const char* plane_status_name(int status) { return name_in(kGroundPlaneStatusNam
 const char* plane_reason_name(int reason) { return name_in(kGroundPlaneReasonNames, reason); }
 const char* cue_status_name(int status) { return name_in(kGroundCueStatusNames, status); }
 const char* ego_status_name(int status) { return name_in(kEgoMotionStatusNames, status); }
+const char* height_status_name(int status) { return name_in(kMountHeightNames, status); }
 const char* mount_status_name(int status) { return name_in(kMountStatusNames, status); }
 const char* object_class_name(int number) { return name_in(kDetectionClassNames, number); }
 const char* object_status_name(int status) { return name_in(kObjectStatusNames, status); }

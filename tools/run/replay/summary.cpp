@@ -1,5 +1,7 @@
 #include "tools/run/replay/summary.hpp"
 
+#include <cmath>
+
 #include "core/numbers.hpp"
 #include "modules/datasets/text.hpp"
 #include "tools/run/replay/names.hpp"
@@ -47,6 +49,19 @@ std::string mount_text(const MountReport& report) {
   if (report.reference) text += ", reference " + angles(report.reference->mean_rad);
   if (!report.reference) text += format(", %.0f %% of a reference", 100.0 * report.progress);
   if (report.recent_rad.allFinite()) text += "; now " + angles(report.recent_rad);
+  return text + "\n";
+}
+
+std::string height_text(const HeightReport& report) {
+  if (report.num_stretches == 0) return "";
+  std::string text =
+      format("height  %s, %d stretches", height_status_name(static_cast<int>(report.status)),
+             report.num_stretches);
+  if (std::isfinite(report.by_vehicle.height_m)) {
+    text += format("; by the vehicle's speed %.4f +- %.4f m, used %.4f +- %.4f m",
+                   report.by_vehicle.height_m, report.by_vehicle.std_m, report.used.height_m,
+                   report.used.std_m);
+  }
   return text + "\n";
 }
 

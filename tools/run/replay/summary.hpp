@@ -24,6 +24,8 @@ class StatusCount {
 
 /// The result of the mount check in one line.
 [[nodiscard]] std::string mount_text(const MountReport& report);
+/// What the vehicle's speed says about the camera's height, in one line; empty without a speed.
+[[nodiscard]] std::string height_text(const HeightReport& report);
 
 /// Table of the stages of `program`: frames, median, 99th percentile and maximum in milliseconds.
 [[nodiscard]] std::string stage_table(const std::string& program, const StageTimer& timer);
