@@ -7,7 +7,7 @@
 set(layers core platform
   modules/datasets modules/detections modules/integrity modules/camera modules/detector modules/vo
   modules/ground/types modules/ground/filter modules/ground/covariance modules/ground/cues modules/ground/ego modules/ground
-  modules/ground_paper modules/mount modules/objects modules/can modules/chain modules/processes
+  modules/ground_paper modules/mount modules/vehicle modules/objects modules/can modules/chain modules/processes
   tools tests)
 
 # Finds the layer of a path below the root, which is the longest one that is a prefix of it.

@@ -15,6 +15,7 @@
 #include "modules/integrity/plausibility_config.hpp"
 #include "modules/mount/mount_config.hpp"
 #include "modules/objects/objects_config.hpp"
+#include "modules/vehicle/vehicle_speed_config.hpp"
 #include "modules/vo/vo_config.hpp"
 
 namespace plumb {
@@ -32,6 +33,7 @@ struct PlumbConfig {
   MountConfig mount;
   ObjectsConfig objects;
   PlausibilityConfig vehicle;
+  VehicleSpeedConfig vehicle_speed;
   CanConfig can;
 
   template <typename Config, typename Visit>
@@ -49,6 +51,7 @@ struct PlumbConfig {
     MountConfig::visit(c.mount, field);
     ObjectsConfig::visit(c.objects, field);
     PlausibilityConfig::visit(c.vehicle, field);
+    VehicleSpeedConfig::visit(c.vehicle_speed, field);
     CanConfig::visit(c.can, field);
   }
 };

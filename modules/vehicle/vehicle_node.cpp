@@ -1,0 +1,33 @@
+#include "modules/vehicle/vehicle_node.hpp"
+
+#include <cmath>
+
+namespace plumb {
+
+VehicleNode::VehicleNode(const VehicleSpeedConfig& config, const DbcSignal& signal,
+                         std::int64_t session)
+    : signal_(signal), delay_us_(std::llround(1e6 * config.delay_s)) {
+  message_.session = session;
+  message_.scale_std = config.scale_std;
+}
+
+const char* VehicleNode::take_ego(const ego_motion_t& message) {
+  if (message.capture_mono_us > 0) mono_minus_camera_us_ = message.capture_mono_us - message.utime;
+  return nullptr;
+}
+
+const vehicle_speed_t* VehicleNode::take_frame(const CanFrame& frame,
+                                               std::int64_t received_mono_us) {
+  if (frame.id != signal_.id || frame.extended != signal_.extended) return nullptr;
+  const std::optional<double> speed_m_s = signal_.value(frame);
+  if (!speed_m_s) {
+    ++num_unknown_;
+    return nullptr;
+  }
+  if (!has_clock()) return nullptr;
+  message_.utime = received_mono_us - delay_us_ - *mono_minus_camera_us_;
+  message_.speed_m_s = *speed_m_s;
+  return &message_;
+}
+
+}  // namespace plumb
