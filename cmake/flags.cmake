@@ -15,7 +15,9 @@ target_compile_options(plumb_strict INTERFACE
   -fno-math-errno -fno-trapping-math -ffp-contract=off
   $<$<CONFIG:Debug>:-DEIGEN_INITIALIZE_MATRICES_BY_NAN>
   $<$<BOOL:${PLUMB_SANITIZE}>:${sanitizers} -fno-omit-frame-pointer>)
+# A program loads the libraries that it calls, and no others that come with them.
 target_link_options(plumb_strict INTERFACE
+  -Wl,--as-needed
   $<$<BOOL:${PLUMB_SANITIZE}>:${sanitizers}>)
 
 if(PLUMB_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
