@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "modules/camera/image_queue_config.hpp"
 #include "platform/bounded_decode.hpp"
 
 namespace plumb {
@@ -12,7 +13,6 @@ namespace {
 
 constexpr int kMinSide_px = 64;
 constexpr int kMaxSide_px = 8192;
-constexpr std::int64_t kMaxPixels = 1920 * 1200;  // what readers of CAMERA have room for
 constexpr int kMaxMetadata = 16;
 constexpr std::string_view kSeqKey = "seq";
 constexpr std::string_view kSessionKey = "session";
@@ -163,7 +163,7 @@ const char* from_wire(const camera_calibration_t& message, CameraModel* camera) 
       message.height > kMaxSide_px) {
     return "calibration: image size is outside [64, 8192]";
   }
-  if (std::int64_t{message.width} * message.height > kMaxPixels)
+  if (std::int64_t{message.width} * message.height > ImageQueueConfig::kMaxPixels)
     return "calibration: the images have more pixels than 1920 x 1200";
   if (!inside(message.fx_px, 1.0, 1e5) || !inside(message.fy_px, 1.0, 1e5))
     return "calibration: focal length is outside [1, 100000]";

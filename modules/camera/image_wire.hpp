@@ -16,6 +16,7 @@
 #include "core/camera_model.hpp"
 #include "core/image_view.hpp"
 #include "modules/camera/jpeg_source.hpp"
+#include "platform/bus.hpp"
 #include "plumb/camera_calibration_t.hpp"
 #include "plumb/image_t.hpp"
 
@@ -49,6 +50,11 @@ void to_wire_jpeg(std::int64_t capture_us, std::int64_t seq, int width_px, int h
 /// [bytes] The largest encoding of an image with `data_bytes` of data.
 [[nodiscard]] constexpr std::size_t max_image_bytes(std::size_t data_bytes) {
   return data_bytes + 128;
+}
+
+/// The memory of a reader of CAMERA whose images have at most `max_pixels`.
+[[nodiscard]] inline MessageMemory image_memory(int max_pixels) {
+  return {max_image_bytes(static_cast<std::size_t>(max_pixels)), RawSubscriber::kQueueImages};
 }
 
 [[nodiscard]] camera_calibration_t to_wire(const CameraModel& camera, std::int64_t utime);

@@ -75,7 +75,7 @@ TEST_F(WireMemory, AGreyImageIsEncodedReadAndKeptInPlace) {
   Publisher<image_t> out(bus_, kCamera, max_image_bytes(pixels.size()));
   image_t message{};
   ImageDecoder decoder(kWidth, kHeight);
-  PendingImages pending(kWidth, kHeight);
+  PendingImages pending(kWidth, kHeight, 8);
   EXPECT_EQ(0, allocations_of([&] {
               to_wire(1, 2, {pixels.data(), kWidth, kHeight, kWidth}, &message);
               ImageFrame frame;
