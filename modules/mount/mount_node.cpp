@@ -17,7 +17,7 @@ MountNode::MountNode(const MountConfig& config) : state_file_(config.state_file)
   try {
     check_.restore(load_mount_reference(state_file_));
   } catch (const ConfigError& error) {
-    log_line("%s; a new reference will be made", error.what());
+    log_warning("%s; a new reference will be made", error.what());
   }
 }
 
@@ -31,7 +31,7 @@ const mount_t* MountNode::update(const GroundOutput& ground) {
   if (!due && report.status == before) return nullptr;
   published_us_ = ground.capture_us;
   write_alarm();
-  if (report.status != before && alarm() != nullptr) log_line("%s", alarm_);
+  if (report.status != before && alarm() != nullptr) log_warning("%s", alarm_);
   to_wire(report, ground.capture_us, &message_);
   return &message_;
 }
@@ -43,7 +43,7 @@ void MountNode::save() const {
   try {
     save_mount_reference(state_file_, *check_.report().reference);
   } catch (const InputError& error) {
-    log_line("%s", error.what());
+    log_warning("%s", error.what());
   }
 }
 

@@ -95,7 +95,7 @@ class CameraProcess {
 
 int main(int argc, char** argv) {
   plumb::Process process({"camera", "Camera, video, folder of images or KITTI folder -> CAMERA",
-                          plumb::kHealthCamera});
+                          plumb::kHealthCamera, /*is_cyclic=*/true});
   // OpenCV is silenced, so that each error is reported once and by this process.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::PlumbConfig config;
@@ -103,7 +103,8 @@ int main(int argc, char** argv) {
   process.declare_options([&options](plumb::CommandLine& app) { declare(app, &options); });
   std::optional<CameraProcess> camera;
   return process.run(argc, argv, &config, [&] {
-    const auto folder = std::filesystem::path(process.config_path()).parent_path();
+    const std::filesystem::path stating_mask = process.config_path_of("camera.mask_file");
+    const auto folder = stating_mask.parent_path();
     camera.emplace(process, config.camera, options, folder);
   });
 }

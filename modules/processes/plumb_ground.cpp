@@ -27,8 +27,10 @@ class GroundProcess {
         mount_node_(config.mount),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
-        camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
-                [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }),
+        camera_(
+            process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
+            [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); },
+            plumb::image_memory(config.images.max_pixels)),
         motion_(process.bus(), plumb::kVoMotion, plumb::Input::kPeriodic,
                 [this](const plumb::vo_motion_t& m) { return on_motion(m); }),
         detections_(process.bus(), plumb::kDetections, plumb::Input::kOccasional,
