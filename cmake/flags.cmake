@@ -15,7 +15,19 @@ target_compile_options(plumb_strict INTERFACE
   -fno-math-errno -fno-trapping-math -ffp-contract=off
   $<$<CONFIG:Debug>:-DEIGEN_INITIALIZE_MATRICES_BY_NAN>
   $<$<BOOL:${PLUMB_SANITIZE}>:${sanitizers} -fno-omit-frame-pointer>)
+# An error in the handling of memory ends a program instead of being used by somebody: canaries on
+# the stack, checked copies, marked targets of jumps, tables that are read-only after the start.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64")
+  set(guarded_jumps -mbranch-protection=standard)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(guarded_jumps -fcf-protection)
+endif()
+target_compile_options(plumb_strict INTERFACE
+  -fstack-protector-strong -fstack-clash-protection ${guarded_jumps}
+  $<$<AND:$<CONFIG:Release>,$<NOT:$<BOOL:${PLUMB_SANITIZE}>>>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3>)
+# A program loads the libraries that it calls, and no others that come with them.
 target_link_options(plumb_strict INTERFACE
+  -Wl,--as-needed -Wl,-z,relro,-z,now,-z,noexecstack
   $<$<BOOL:${PLUMB_SANITIZE}>:${sanitizers}>)
 
 if(PLUMB_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -26,16 +38,23 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")  # line numbers only: -g makes the build a 
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# plumb_program(name sources... LIBS libs...) adds a program to bin/; it is installed when it has been
-# built. Its main source is compiled with -O1, because it only connects what the libraries do.
+# plumb_program(name sources... LIBS libs... COMPONENT package FOLDER folder) adds a program to bin/ or FOLDER; it is installed
+# when it has been built, as part of the tools or of another package. Its main source is compiled with -O1, because it only connects what the libraries do.
 function(plumb_program name)
-  cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "COMPONENT;FOLDER" "LIBS" ${ARGN})
+  if(NOT ARG_COMPONENT)
+    set(ARG_COMPONENT tools)
+  endif()
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER ${CMAKE_INSTALL_BINDIR})
+  endif()
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${ARG_FOLDER})
   target_link_libraries(${name} PRIVATE plumb_strict ${ARG_LIBS})
   set_source_files_properties(${ARG_UNPARSED_ARGUMENTS} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
   # tools/demo builds some of the programs. What has been built is installed, the rest is named.
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
+  install(TARGETS ${name} RUNTIME DESTINATION ${ARG_FOLDER} COMPONENT ${ARG_COMPONENT} OPTIONAL)
   install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${name}>\")
   message(STATUS \"Left out, because it has not been built: ${name}\")
-endif()")
+endif()" COMPONENT ${ARG_COMPONENT})
 endfunction()

@@ -92,7 +92,7 @@ int Bus::subscribe(const Subscription& wanted) {
   }
   const int granted = transport_->receive_buffer_bytes();
   if (is_first && granted > 0 && granted < kReceiveBufferBytes) {
-    log_line(
+    log_warning(
         "the kernel granted a receive buffer of %d bytes instead of %d; images may be lost; "
         "to grant it run: sysctl -w net.core.rmem_max=%d",
         granted, kReceiveBufferBytes, kReceiveBufferBytes);
@@ -174,6 +174,8 @@ void RawSubscriber::take(const MessageQueues::View& message) {
   if (const char* refused = handler_(message.bytes)) {
     counters.reject(refused);
     log_limited("a message on %s was refused: %s", channel_.name, refused);
+  } else if (!is_skipped_) {
+    accepted_us_ = last_us_;
   }
   if (is_late(monotonic_us())) ++counters.num_late;
 }

@@ -122,6 +122,8 @@ class RawSubscriber {
   [[nodiscard]] Input input() const { return input_; }
   /// [us] Monotonic time of the newest message; 0 before the first.
   [[nodiscard]] std::int64_t last_us() const { return last_us_; }
+  /// [us] Monotonic time of the newest message that was accepted and not skipped; 0 before it.
+  [[nodiscard]] std::int64_t accepted_us() const { return accepted_us_; }
   /// [us] Monotonic time at which the newest message reached this machine's socket.
   [[nodiscard]] std::int64_t arrival_us() const { return arrival_us_; }
   /// Messages that a newer one replaced before they were handled (Delivery::kLatest).
@@ -151,6 +153,7 @@ class RawSubscriber {
   Handler handler_;
   int subscription_ = MessageQueues::kNone;
   std::int64_t last_us_ = 0;
+  std::int64_t accepted_us_ = 0;
   std::int64_t arrival_us_ = 0;
   std::int64_t capture_us_ = 0;
   bool is_skipped_ = false;

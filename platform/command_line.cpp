@@ -140,6 +140,7 @@ Option Option::check(const ValueCheck& check) {
 }
 
 Option Option::take_all() { return Option(option_->take_all()); }
+Option Option::one_each() { return Option(option_->allow_extra_args(false)); }
 Option Option::delimiter(char separator) { return Option(option_->delimiter(separator)); }
 Option Option::type_name(const std::string& name) { return Option(option_->type_name(name)); }
 Option Option::capture_default_str() { return Option(option_->capture_default_str()); }

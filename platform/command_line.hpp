@@ -45,6 +45,8 @@ class Option {
   Option check(const ValueCheck& check);
   /// Keeps every value of an option that is given several times.
   Option take_all();
+  /// Takes one word each time that the option is given, for an option of several values.
+  Option one_each();
   /// Takes several values from one word.
   Option delimiter(char separator);
   /// Shown by --help in place of the type.

@@ -122,7 +122,8 @@ template <typename Config>
   return writer.text();
 }
 
-/// Fills `config` from the file `path`. An empty path leaves the defaults. Throws ConfigError.
+/// Fills `config` from the file `path`, whose keys replace the values that are there. An empty path
+/// changes nothing. Throws ConfigError.
 template <typename Config>
 void load_config(const std::string& path, Config* config) {
   if (path.empty()) return;

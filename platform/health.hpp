@@ -30,6 +30,7 @@ class Health {
   /// clear_condition().
   void set_condition(HealthState state, const char* reason);
   void clear_condition() { condition_ = HealthState::kRunning; }
+  [[nodiscard]] bool has_condition() const { return condition_ != HealthState::kRunning; }
 
   /// Builds the message. Without a condition the process is waiting while no message arrives
   /// on a periodic input, and else degraded for a second after it rejected, lost, skipped or missed

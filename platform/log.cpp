@@ -11,6 +11,7 @@
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 
 #include "platform/clock.hpp"
 
@@ -88,14 +89,32 @@ void write_line(const char* text, int size) {
   if (!write_now(text, bytes)) ++g_num_dropped;
 }
 
-void print(const char* format, std::va_list arguments, std::int64_t num_suppressed) {
+/// Priorities of syslog.
+enum class Level : int { kError = 3, kWarning = 4, kInfo = 6 };
+
+/// Is `now`, which is stderr, the stream that systemd connected to the journal?
+bool is_journal(const struct stat& now) {
+  const char* stream = std::getenv("JOURNAL_STREAM");
+  unsigned long long device = 0;
+  unsigned long long inode = 0;
+  return stream != nullptr && std::sscanf(stream, "%llu:%llu", &device, &inode) == 2 &&
+         device == now.st_dev && inode == now.st_ino;
+}
+
+void print(Level level, const char* format, std::va_list arguments, std::int64_t num_suppressed) {
   std::array<char, 512> line{};
   std::vsnprintf(line.data(), line.size(), format, arguments);
+  std::array<char, 16> priority{};
+  struct stat now {};
+  if (::fstat(STDERR_FILENO, &now) == 0 && is_journal(now))
+    std::snprintf(priority.data(), priority.size(), "<%d>", static_cast<int>(level));
   std::array<char, 640> text{};
   const int n = num_suppressed > 0
-                    ? std::snprintf(text.data(), text.size(), "%s: %s (%lld more like it)\n",
-                                    g_name, line.data(), static_cast<long long>(num_suppressed))
-                    : std::snprintf(text.data(), text.size(), "%s: %s\n", g_name, line.data());
+                    ? std::snprintf(text.data(), text.size(), "%s%s: %s (%lld more like it)\n",
+                                    priority.data(), g_name, line.data(),
+                                    static_cast<long long>(num_suppressed))
+                    : std::snprintf(text.data(), text.size(), "%s%s: %s\n", priority.data(), g_name,
+                                    line.data());
   write_line(text.data(), std::min(n, static_cast<int>(text.size()) - 1));
 }
 
@@ -119,7 +138,21 @@ void set_log_name(const char* name) { g_name = name; }
 void log_line(const char* format, ...) {
   std::va_list arguments;
   va_start(arguments, format);
-  print(format, arguments, 0);
+  print(Level::kInfo, format, arguments, 0);
+  va_end(arguments);
+}
+
+void log_warning(const char* format, ...) {
+  std::va_list arguments;
+  va_start(arguments, format);
+  print(Level::kWarning, format, arguments, 0);
+  va_end(arguments);
+}
+
+void log_error(const char* format, ...) {
+  std::va_list arguments;
+  va_start(arguments, format);
+  print(Level::kError, format, arguments, 0);
   va_end(arguments);
 }
 
@@ -132,7 +165,7 @@ void log_limited(const char* format, ...) {
   }
   std::va_list arguments;
   va_start(arguments, format);
-  print(format, arguments, site.num_suppressed);
+  print(Level::kWarning, format, arguments, site.num_suppressed);
   va_end(arguments);
   site.num_suppressed = 0;
   site.next_us = now_us + kQuiet_us;

@@ -1,6 +1,6 @@
 #include "platform/process.hpp"
 
-#include <array>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <optional>
@@ -10,6 +10,9 @@
 #include "platform/command_line.hpp"
 #include "platform/exit_code.hpp"
 #include "platform/log.hpp"
+#include "platform/output_watch.hpp"
+#include "platform/realtime.hpp"
+#include "platform/service_manager.hpp"
 #include "platform/udpm/udpm_url.hpp"
 
 namespace plumb {
@@ -33,14 +36,16 @@ struct Process::Impl {
       : info(process_info),
         program(std::string("plumb-") + process_info.name),
         app(process_info.summary, program),
-        health(process_info.name) {}
+        health(process_info.name),
+        output(process_info.is_cyclic) {}
 
   ProcessInfo info;
   std::string program;
   std::int64_t session = realtime_us();
   CommandLine app;
   std::string url;
-  std::string config_path;
+  std::vector<std::string> config_paths;
+  RealtimeRequest realtime;
   bool print_config = false;
   bool print_text = false;
   std::function<std::string()> text;
@@ -48,20 +53,37 @@ struct Process::Impl {
   Counters counters;
   StageTimer timer;
   Health health;
+  ServiceManager manager;
+  OutputWatch output;
   std::optional<EventLoop> loop;
   std::optional<Bus> bus;
+  bool is_ready = false;
+
+  void report(Publisher<process_health_t>& publisher);
 };
 
 Process::Process(const ProcessInfo& info) : impl_(std::make_unique<Impl>(info)) {
   block_stop_signals();           // the loop receives a signal that arrives before its construction
   std::signal(SIGPIPE, SIG_IGN);  // a reader of stderr that goes away ends nothing
+  std::signal(SIGHUP, SIG_IGN);   // nor does a terminal
   set_log_name(impl_->program.c_str());
   CommandLine& app = impl_->app;
   app.add_option("--lcm-url", impl_->url,
                  "LCM network; default $LCM_DEFAULT_URL, else this machine");
-  app.add_option("--config", impl_->config_path, "TOML file; every key is optional");
+  app.add_option("--config", impl_->config_paths,
+                 "TOML file; every key is optional. Given again, its keys replace earlier ones")
+      .one_each();
   app.add_flag("--print-config", impl_->print_config,
                "print every setting with its range and the value it would have, then exit");
+  app.add_flag("--lock-memory", impl_->realtime.lock_memory,
+               "keep everything in RAM, taken before the first message");
+  app.add_option("--priority", impl_->realtime.priority,
+                 "real-time priority (SCHED_FIFO); default: the ordinary scheduler")
+      .check(within(1, 99));
+  app.add_option("--cpus", impl_->realtime.cpus, "CPUs to run on, as 2,3")
+      .one_each()
+      .delimiter(',')
+      .check(within(0, 1023));
 }
 
 Process::~Process() = default;
@@ -75,7 +97,16 @@ void Process::declare_print(const char* flag, const char* help, std::function<st
   impl_->text = std::move(text);
 }
 
-const std::string& Process::config_path() const { return impl_->config_path; }
+const std::vector<std::string>& Process::config_paths() const { return impl_->config_paths; }
+
+std::string Process::config_path_of(const char* key) const {
+  const std::vector<std::string>& paths = impl_->config_paths;
+  const auto last = std::find_if(paths.rbegin(), paths.rend(), [key](const std::string& path) {
+    return ConfigFile::load(path).has(key);
+  });
+  return last == paths.rend() ? std::string() : *last;
+}
+
 std::int64_t Process::session() const { return impl_->session; }
 Bus& Process::bus() { return *impl_->bus; }
 EventLoop& Process::loop() { return *impl_->loop; }
@@ -90,7 +121,7 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
     const int done = impl_->app.parse(argc, argv);
     if (done >= 0) return done;
     check_url(impl_->url);
-    config.load(impl_->config_path);
+    for (const std::string& path : impl_->config_paths) config.load(path);
     if (impl_->print_config || impl_->print_text) {
       const std::string text = impl_->print_config ? config.render() : impl_->text();
       std::fputs(text.c_str(), stdout);
@@ -99,19 +130,36 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
     serve(setup);
     return kExitOk;
   } catch (const ConfigError& error) {
-    log_line("%s", error.what());
+    log_error("%s", error.what());
     return kExitRefused;
   } catch (const InputError& error) {
-    log_line("%s", error.what());
+    log_error("%s", error.what());
     return kExitRefused;
   } catch (const std::exception& error) {
-    log_line("%s", error.what());
+    log_error("%s", error.what());
     return kExitMachine;
+  }
+}
+
+/// Publishes the health, and tells the service manager of it.
+void Process::Impl::report(Publisher<process_health_t>& publisher) {
+  const std::int64_t now_us = monotonic_us();
+  const process_health_t& message = health.report(now_us, counters, *bus, timer);
+  publisher.publish(message);
+  const char* status = message.state_reason.empty() ? "running" : message.state_reason.c_str();
+  if (output.judge(now_us, *bus, counters, health.has_condition())) {
+    is_ready ? manager.alive(status) : manager.ready(status);
+  } else {
+    manager.show(is_ready ? "no output, though all inputs arrive" : status);
   }
 }
 
 void Process::serve(const std::function<void()>& setup) {
   Impl& p = *impl_;
+  const auto warn = [](const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences) log_warning("%s", sentence.c_str());
+  };
+  warn(prepare_realtime(p.realtime));
   p.loop.emplace();
   p.bus.emplace(p.url, &p.counters);
   Counters health_counters;  // health messages do not count as output of the process
@@ -120,17 +168,16 @@ void Process::serve(const std::function<void()>& setup) {
   if (!p.bus->subscribers().empty()) {
     p.loop->watch(p.bus->fileno(), [&p] { p.bus->handle(); });
   }
-  const auto report = [&p, &publisher] {
-    publisher.publish(p.health.report(monotonic_us(), p.counters, *p.bus, p.timer));
-  };
-  p.loop->every(kHealthPeriod_us, report);
-  report();
+  p.loop->every(kHealthPeriod_us, [&p, &publisher] { p.report(publisher); });
+  warn(enter_realtime(p.realtime));
+  p.report(publisher);
+  p.is_ready = true;
   p.loop->run();
 
   const int signal = p.loop->stop_signal();
-  publisher.publish(p.health.report_stopping(monotonic_us(), signal == SIGINT    ? "SIGINT"
-                                                             : signal == SIGTERM ? "SIGTERM"
-                                                                                 : "done"));
+  const char* reason = signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "done";
+  publisher.publish(p.health.report_stopping(monotonic_us(), reason));
+  p.manager.stopping(reason);
   const Counters& c = p.counters;
   log_line(
       "stopped; received %lld, rejected %lld, lost %lld, late %lld, skipped %lld, unpaired %lld, "

@@ -6,19 +6,25 @@
 /// Threads:
 ///   Everything runs in the thread that calls run(), callbacks included.
 /// Signals:
-///   SIGINT and SIGTERM are blocked from construction on, and they end run() normally.
+///   SIGINT and SIGTERM are blocked from construction on, and they end run() normally. SIGHUP is
+///   ignored: a terminal that closes does not end a process of the vehicle.
+/// Supervision:
+///   With $NOTIFY_SOCKET the process tells systemd when it serves, how it is, and that its output
+///   is what it should be (output_watch.hpp).
 /// Errors:
 ///   run() prints one sentence and returns the exit code. 0 follows --help, --version,
 ///   --print-config, SIGINT and SIGTERM. 2 follows a refused option, key, value or file. 1 follows
 ///   a failure of the machine, such as a missing network.
 /// Memory:
-///   `setup` may allocate. The shell allocates nothing after it.
+///   `setup` may allocate. The shell allocates nothing after it. With --lock-memory everything is
+///   touched and locked after `setup`.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/channels.hpp"
 #include "core/counters.hpp"
@@ -43,9 +49,10 @@ class UsageError : public InputError {
 };
 
 struct ProcessInfo {
-  const char* name;       ///< "vo" when the program is plumb-vo
-  const char* summary;    ///< sentence for --help
-  const Channel& health;  ///< channel of its process_health_t
+  const char* name;        ///< "vo" when the program is plumb-vo
+  const char* summary;     ///< sentence for --help
+  const Channel& health;   ///< channel of its process_health_t
+  bool is_cyclic = false;  ///< it publishes whether or not anything arrives
 };
 
 class Process {
@@ -75,7 +82,10 @@ class Process {
   }
 
   // The following are valid inside `setup` and in callbacks.
-  [[nodiscard]] const std::string& config_path() const;  ///< empty when none was given
+  /// The files of --config, in their order: later ones replace values of earlier ones.
+  [[nodiscard]] const std::vector<std::string>& config_paths() const;
+  /// The last of them that has a dotted key; empty when none has.
+  [[nodiscard]] std::string config_path_of(const char* key) const;
   /// [us] Calendar time at which the process started: names this run in the messages it sends.
   [[nodiscard]] std::int64_t session() const;
   [[nodiscard]] Bus& bus();

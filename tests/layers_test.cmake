@@ -47,7 +47,7 @@ foreach(file ${files})
     continue()
   endif()
   file(STRINGS ${ROOT}/${file} hits REGEX
-    "#include <(lcm/|iostream|fstream|cstdio|chrono|thread|mutex|opencv|linux/|sys/|unistd|toml)|#include \"(plumb/|platform/)")
+    "#include <(lcm/|iostream|fstream|cstdio|chrono|thread|mutex|opencv|jpeglib|linux/|sys/|unistd|toml)|#include \"(plumb/|platform/)")
   if(hits)
     message(SEND_ERROR "${file} belongs to a pure library, but: ${hits}")
   endif()

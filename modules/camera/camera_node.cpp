@@ -1,32 +1,32 @@
 #include "modules/camera/camera_node.hpp"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "modules/camera/image_wire.hpp"
+#include "modules/camera/mask_source.hpp"
 #include "platform/process.hpp"
 
 namespace plumb {
 namespace {
 
-/// Reads the pixels of the mask file, as rows without gaps. Returns an empty matrix without a file.
-cv::Mat read_mask(const CameraConfig& config, const std::filesystem::path& folder) {
+/// Reads the mask file. Returns an empty mask without a file.
+MaskPicture read_mask(const CameraConfig& config, const std::filesystem::path& folder) {
   if (config.mask_file.empty()) return {};
   const std::string file = (folder / config.mask_file).string();
-  cv::Mat mask = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  MaskPicture mask = read_mask_picture(file);
   if (mask.empty()) throw UsageError("camera.mask_file: cannot read " + file + " as PGM or PNG");
-  if (mask.cols != config.width_px || mask.rows != config.height_px) {
-    throw UsageError("camera.mask_file: " + file + " is " + std::to_string(mask.cols) + "x" +
-                     std::to_string(mask.rows) + ", the images are " +
+  if (mask.width_px != config.width_px || mask.height_px != config.height_px) {
+    throw UsageError("camera.mask_file: " + file + " is " + std::to_string(mask.width_px) + "x" +
+                     std::to_string(mask.height_px) + ", the images are " +
                      std::to_string(config.width_px) + "x" + std::to_string(config.height_px));
   }
   return mask;
 }
 
 FrontEnd make_front_end(const CameraConfig& config, const std::filesystem::path& folder) {
-  const cv::Mat mask = read_mask(config, folder);
-  const std::string why = why_unusable(config, config.width_px, config.height_px, mask.data);
+  const MaskPicture mask = read_mask(config, folder);
+  const std::uint8_t* marked = mask.empty() ? nullptr : mask.marked.data();
+  const std::string why = why_unusable(config, config.width_px, config.height_px, marked);
   if (!why.empty()) throw UsageError(why);
-  return {config, config.width_px, config.height_px, mask.data};
+  return {config, config.width_px, config.height_px, marked};
 }
 
 }  // namespace

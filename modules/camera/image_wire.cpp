@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
+#include "modules/camera/image_queue_config.hpp"
 #include "platform/bounded_decode.hpp"
 
 namespace plumb {
@@ -14,7 +13,6 @@ namespace {
 
 constexpr int kMinSide_px = 64;
 constexpr int kMaxSide_px = 8192;
-constexpr std::int64_t kMaxPixels = 1920 * 1200;  // what readers of CAMERA have room for
 constexpr int kMaxMetadata = 16;
 constexpr std::string_view kSeqKey = "seq";
 constexpr std::string_view kSessionKey = "session";
@@ -165,7 +163,7 @@ const char* from_wire(const camera_calibration_t& message, CameraModel* camera) 
       message.height > kMaxSide_px) {
     return "calibration: image size is outside [64, 8192]";
   }
-  if (std::int64_t{message.width} * message.height > kMaxPixels)
+  if (std::int64_t{message.width} * message.height > ImageQueueConfig::kMaxPixels)
     return "calibration: the images have more pixels than 1920 x 1200";
   if (!inside(message.fx_px, 1.0, 1e5) || !inside(message.fy_px, 1.0, 1e5))
     return "calibration: focal length is outside [1, 100000]";
@@ -191,16 +189,8 @@ bool same_camera(const CameraModel& a, const CameraModel& b) {
          a.camera_height_m == b.camera_height_m && a.readout_s == b.readout_s;
 }
 
-struct ImageDecoder::Storage {
-  cv::Mat grey;
-};
-
 ImageDecoder::ImageDecoder(int width_px, int height_px)
-    : width_px_(width_px), height_px_(height_px), storage_(std::make_unique<Storage>()) {
-  storage_->grey.create(height_px, width_px, CV_8UC1);
-}
-
-ImageDecoder::~ImageDecoder() = default;
+    : width_px_(width_px), height_px_(height_px) {}
 
 const char* ImageDecoder::check(const ImageFrame& frame) const {
   return frame.width_px == width_px_ && frame.height_px == height_px_
@@ -216,18 +206,8 @@ const char* ImageDecoder::decode(const ImageFrame& frame, ImageView* view) {
   }
   if (!jpeg_has_size(frame.data, width_px_, height_px_)) return "JPEG header contradicts the image";
   if (!jpeg_is_complete(frame.data)) return "JPEG is cut off";
-  cv::Mat& grey = storage_->grey;
-  try {
-    const cv::Mat bytes(1, static_cast<int>(frame.data.size()), CV_8UC1,
-                        const_cast<std::uint8_t*>(frame.data.data()));
-    cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION, &grey);
-  } catch (const cv::Exception&) {
-    return "JPEG does not decode";
-  }
-  if (grey.cols != width_px_ || grey.rows != height_px_ || grey.type() != CV_8UC1)
-    return "JPEG does not decode";
-  *view = {grey.data, width_px_, height_px_, static_cast<std::ptrdiff_t>(grey.step[0])};
-  return nullptr;
+  if (!jpeg_) jpeg_.emplace(width_px_, height_px_);
+  return jpeg_->decode(frame.data, view);
 }
 
 }  // namespace plumb

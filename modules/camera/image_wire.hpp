@@ -5,17 +5,18 @@
 ///   A bounded reader parses images, not the generated decoder, so that a corrupt length can
 ///   neither make it allocate nor throw. Functions return null, or the reason as a string literal.
 /// Memory:
-///   Grey images are used in place: an ImageFrame refers to the bytes that were read. OpenCV
-///   (libjpeg) decodes compressed images into storage of ImageDecoder. It allocates in every call,
-///   which is one reason to send grey images on an ECU.
+///   Grey images are used in place: an ImageFrame refers to the bytes that were read.
+///   Compressed ones are decoded into storage that ImageDecoder takes with the first of them.
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 
 #include "core/camera_model.hpp"
 #include "core/image_view.hpp"
+#include "modules/camera/jpeg_source.hpp"
+#include "platform/bus.hpp"
 #include "plumb/camera_calibration_t.hpp"
 #include "plumb/image_t.hpp"
 
@@ -51,6 +52,11 @@ void to_wire_jpeg(std::int64_t capture_us, std::int64_t seq, int width_px, int h
   return data_bytes + 128;
 }
 
+/// The memory of a reader of CAMERA whose images have at most `max_pixels`.
+[[nodiscard]] inline MessageMemory image_memory(int max_pixels) {
+  return {max_image_bytes(static_cast<std::size_t>(max_pixels)), RawSubscriber::kQueueImages};
+}
+
 [[nodiscard]] camera_calibration_t to_wire(const CameraModel& camera, std::int64_t utime);
 
 /// Fills `camera` and returns null when the message describes a camera.
@@ -63,7 +69,6 @@ void to_wire_jpeg(std::int64_t capture_us, std::int64_t seq, int width_px, int h
 class ImageDecoder {
  public:
   ImageDecoder(int width_px, int height_px);
-  ~ImageDecoder();
 
   /// Returns null when the frame has the camera's size. Reads no pixel.
   [[nodiscard]] const char* check(const ImageFrame& frame) const;
@@ -72,10 +77,9 @@ class ImageDecoder {
   [[nodiscard]] const char* decode(const ImageFrame& frame, ImageView* view);
 
  private:
-  struct Storage;
   int width_px_;
   int height_px_;
-  std::unique_ptr<Storage> storage_;
+  std::optional<JpegDecoder> jpeg_;
 };
 
 }  // namespace plumb

@@ -68,7 +68,7 @@ void LiveNode::check_silence(std::int64_t now_us) {
 }
 
 void LiveNode::on_loss() {
-  log_line("%s", source_.why().c_str());
+  log_warning("%s", source_.why().c_str());
   const std::int64_t now_us = monotonic_us();
   if (exits_on_loss_) {
     process_.health().set_condition(HealthState::kDegraded, source_.why().c_str());

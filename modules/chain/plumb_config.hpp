@@ -45,7 +45,7 @@ struct PlumbConfig {
     DetectorConfig::visit(c.detect, field);
     DetectionsConfig::visit(c.detections, field);
     field("ground.mode", c.ground_mode, {"default", "paper"},
-          "algorithm: ours, or that of Song and Chandraker (CVPR 2014) for comparison");
+          "algorithm: ours, or in plumb-replay that of Song and Chandraker (CVPR 2014)");
     GroundConfig::visit(c.ground, field);
     PaperConfig::visit(c.ground_paper, field);
     MountConfig::visit(c.mount, field);

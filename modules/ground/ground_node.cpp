@@ -32,7 +32,7 @@ void GroundNode::build() {
   output_ = nullptr;
   const CameraModel& camera = calibration_.camera();
   decoder_.emplace(camera.width_px, camera.height_px);
-  images_.emplace(camera.width_px, camera.height_px);
+  images_.emplace(camera.width_px, camera.height_px, static_cast<std::size_t>(config_.images_kept));
   stated_height_ = camera_height_ = camera_height_of(config_, camera);
   if (make_) {
     algorithm_ = make_(camera);

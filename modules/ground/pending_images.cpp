@@ -4,21 +4,22 @@
 
 namespace plumb {
 
-PendingImages::PendingImages(int width_px, int height_px)
+PendingImages::PendingImages(int width_px, int height_px, std::size_t num_slots)
     : slot_bytes_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
-      storage_(kSlots * slot_bytes_) {}
+      storage_(num_slots * slot_bytes_),
+      frames_(num_slots) {}
 
 bool PendingImages::put(const ImageFrame& frame) {
   const auto width = static_cast<std::size_t>(frame.width_px);
   const auto height = static_cast<std::size_t>(frame.height_px);
   const std::size_t bytes = frame.compressed ? frame.data.size() : width * height;
   if (bytes > slot_bytes_) return false;
-  if (size_ == kSlots) {
-    first_ = (first_ + 1) % kSlots;
+  if (size_ == frames_.size()) {
+    first_ = (first_ + 1) % frames_.size();
     --size_;
     ++num_overflowed_;
   }
-  const std::size_t slot = (first_ + size_) % kSlots;
+  const std::size_t slot = (first_ + size_) % frames_.size();
   std::uint8_t* out = storage_.data() + slot * slot_bytes_;
   if (frame.compressed) {
     std::memcpy(out, frame.data.data(), bytes);
@@ -36,7 +37,7 @@ bool PendingImages::put(const ImageFrame& frame) {
 
 const ImageFrame* PendingImages::find(std::int64_t seq, std::int64_t capture_us) const {
   for (std::size_t i = 0; i < size_; ++i) {
-    const ImageFrame& frame = frames_[(first_ + i) % kSlots];
+    const ImageFrame& frame = frames_[(first_ + i) % frames_.size()];
     if (frame.seq == seq && frame.capture_us == capture_us) return &frame;
   }
   return nullptr;
@@ -45,7 +46,7 @@ const ImageFrame* PendingImages::find(std::int64_t seq, std::int64_t capture_us)
 void PendingImages::drop_through(const ImageFrame* frame) {
   while (size_ > 0) {
     const bool last = &frames_[first_] == frame;
-    first_ = (first_ + 1) % kSlots;
+    first_ = (first_ + 1) % frames_.size();
     --size_;
     if (last) return;
   }

@@ -1,11 +1,10 @@
 /// Copies of the newest images that wait for the VO motion of the same frame.
 ///
 /// Memory:
-///   kSlots images at construction (30 MB for KITTI). When all are taken, the oldest is dropped
-///   and counted.
+///   `num_slots` images at construction (30 MB for 64 of KITTI). When all are taken, the oldest is
+///   dropped and counted.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,10 +15,7 @@ namespace plumb {
 
 class PendingImages {
  public:
-  /// As many as the CAMERA queue holds: plumb-vo cannot be further behind without losing images.
-  static constexpr std::size_t kSlots = 64;
-
-  PendingImages(int width_px, int height_px);
+  PendingImages(int width_px, int height_px, std::size_t num_slots);
 
   /// False when the image does not fit a slot.
   [[nodiscard]] bool put(const ImageFrame& frame);
@@ -33,7 +29,7 @@ class PendingImages {
  private:
   std::size_t slot_bytes_;
   std::vector<std::uint8_t> storage_;
-  std::array<ImageFrame, kSlots> frames_{};  ///< oldest first, beginning at first_
+  std::vector<ImageFrame> frames_;  ///< one per slot, oldest first, beginning at first_
   std::size_t first_ = 0;
   std::size_t size_ = 0;
   std::int64_t num_overflowed_ = 0;

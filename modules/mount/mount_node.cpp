@@ -18,7 +18,7 @@ MountNode::MountNode(const MountConfig& config)
   try {
     check_.restore(load_mount_reference(state_file_));
   } catch (const ConfigError& error) {
-    log_line("%s; a new reference will be made", error.what());
+    log_warning("%s; a new reference will be made", error.what());
   }
 }
 
@@ -46,7 +46,7 @@ const mount_t* MountNode::update(const GroundOutput& ground, const CameraHeight&
   if (!due && !changed) return nullptr;
   published_us_ = ground.capture_us;
   write_alarm(stated_height);
-  if (changed && alarm() != nullptr) log_line("%s", alarm_);
+  if (changed && alarm() != nullptr) log_warning("%s", alarm_);
   to_wire(report, ground.capture_us, &message_);
   to_wire(height, &message_);
   return &message_;
@@ -59,7 +59,7 @@ void MountNode::save() const {
   try {
     save_mount_reference(state_file_, *check_.report().reference);
   } catch (const InputError& error) {
-    log_line("%s", error.what());
+    log_warning("%s", error.what());
   }
 }
 

@@ -70,7 +70,7 @@ class CanProcess {
       log_line("%s", sinks_.has_bus() ? "the CAN interface is up" : "the trace keeps up again");
       return process_.health().clear_condition();
     }
-    log_line("%s", trouble);
+    log_warning("%s", trouble);
     process_.health().set_condition(HealthState::kDegraded, trouble);
     if (sinks_.is_useless()) throw std::runtime_error("nowhere left to write CAN frames to");
   }
@@ -108,7 +108,7 @@ class CanProcess {
 int main(int argc, char** argv) {
   plumb::Process process(
       {"can", "Ego motion, ground plane, mount and objects onto a CAN bus, as plumbline.dbc says.",
-       plumb::kHealthCan});
+       plumb::kHealthCan, /*is_cyclic=*/true});
   std::string interface, path;
   process.declare_options([&](plumb::CommandLine& app) {
     app.add_option("--interface", interface, "CAN interface, for example can0");
@@ -124,10 +124,9 @@ int main(int argc, char** argv) {
   const int code = process.run(argc, argv, &config, [&] {
     if (interface.empty() && path.empty())
       throw plumb::UsageError("give --interface, --trace or both");
-    plumb::OverwriteGuard()
-        .reads("--config", process.config_path())
-        .writes("--trace", path)
-        .check();
+    plumb::OverwriteGuard guard;
+    for (const std::string& file : process.config_paths()) guard.reads("--config", file);
+    guard.writes("--trace", path).check();
     (void)can_addresses(config.can);  // refused before the trace file is created
     const std::int64_t offset_us = plumb::realtime_us() - plumb::monotonic_us();
     const std::string& error = sinks.open(interface, path, offset_us);
@@ -135,8 +134,8 @@ int main(int argc, char** argv) {
     can.emplace(process, config, sinks);
   });
   if (!sinks.close() && code == 0) {
-    plumb::log_line("%s", sinks.trace_error().empty() ? "the trace is not complete"
-                                                      : sinks.trace_error().c_str());
+    plumb::log_error("%s", sinks.trace_error().empty() ? "the trace is not complete"
+                                                       : sinks.trace_error().c_str());
     return 1;
   }
   return code;

@@ -14,12 +14,14 @@ constexpr std::size_t kMaxBytes =
 
 class DetectorProcess {
  public:
-  DetectorProcess(plumb::Process& process, const plumb::DetectorConfig& config)
+  DetectorProcess(plumb::Process& process, const plumb::DetectorConfig& config, int max_pixels)
       : process_(process),
         node_(config),
         detections_(process.bus(), plumb::kDetections, kMaxBytes),
-        camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
-                [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }),
+        camera_(
+            process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
+            [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); },
+            plumb::image_memory(max_pixels)),
         period_us_(static_cast<std::int64_t>(1e6 / config.rate_hz)),
         next_search_(process.loop().timer([this] { search(); })) {}
 
@@ -63,5 +65,6 @@ int main(int argc, char** argv) {
                           plumb::kHealthDetect});
   plumb::PlumbConfig config;
   std::optional<DetectorProcess> detector;
-  return process.run(argc, argv, &config, [&] { detector.emplace(process, config.detect); });
+  return process.run(argc, argv, &config,
+                     [&] { detector.emplace(process, config.detect, config.images.max_pixels); });
 }

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "modules/camera/front_end.hpp"
-#include "modules/chain/ground_algorithm.hpp"
+#include "modules/chain/model_file_source.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "modules/ground/ground_node.hpp"
 #include "modules/mount/mount_node.hpp"
@@ -20,16 +20,17 @@ class GroundProcess {
         models_(plumb::load_models(config.ground.model_file)),
         node_(
             config.ground, config.detections, &process.timer(),
-            [this](const auto& plane, const auto& ego) { publish(plane, ego); }, models_.ground,
-            plumb::ground_factory(config, models_)),
+            [this](const auto& plane, const auto& ego) { publish(plane, ego); }, models_.ground),
         plane_(process.bus(), plumb::kGroundPlane),
         ego_(process.bus(), plumb::kEgoMotion),
         mount_(process.bus(), plumb::kMount),
         mount_node_(config.mount),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
-        camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
-                [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }),
+        camera_(
+            process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
+            [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); },
+            plumb::image_memory(config.images.max_pixels)),
         motion_(process.bus(), plumb::kVoMotion, plumb::Input::kPeriodic,
                 [this](const plumb::vo_motion_t& m) { return on_motion(m); }),
         detections_(process.bus(), plumb::kDetections, plumb::Input::kOccasional,
@@ -140,5 +141,10 @@ int main(int argc, char** argv) {
                           plumb::kHealthGround});
   plumb::PlumbConfig config;
   std::optional<GroundProcess> ground;
-  return process.run(argc, argv, &config, [&] { ground.emplace(process, config); });
+  return process.run(argc, argv, &config, [&] {
+    if (config.ground_mode != "default")  // OpenCV's SIFT stays out of the vehicle
+      throw plumb::UsageError("ground.mode = \"" + config.ground_mode +
+                              "\" is for comparison: plumb-replay runs it, plumb-ground does not");
+    ground.emplace(process, config);
+  });
 }

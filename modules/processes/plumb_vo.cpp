@@ -20,8 +20,10 @@ class VoProcess {
         motion_(process.bus(), plumb::kVoMotion),
         calibration_(process.bus(), plumb::kCameraCalibration, plumb::Input::kOccasional,
                      [this](const plumb::camera_calibration_t& m) { return on_calibration(m); }),
-        camera_(process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
-                [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); }) {
+        camera_(
+            process.bus(), plumb::kCamera, plumb::Input::kPeriodic,
+            [this](plumb::RawSubscriber::Bytes bytes) { return on_image(bytes); },
+            plumb::image_memory(config.images.max_pixels)) {
     node_.set_session(process.session());
     if (const auto camera = plumb::stated_model(config.camera)) {
       node_.configure_camera(*camera);

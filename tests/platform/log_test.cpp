@@ -4,9 +4,11 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <string>
 
 namespace plumb {
@@ -83,6 +85,28 @@ TEST(Log, AFileTakesEveryLine) {
   EXPECT_NE(text.find("line 0\n"), std::string::npos);
   EXPECT_NE(text.find("line 999\n"), std::string::npos);
   std::fclose(file);
+}
+
+TEST(Log, LinesForTheJournalBeginWithTheirPriority) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+  ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  struct stat pipe {};
+  ASSERT_EQ(::fstat(ends[1], &pipe), 0);
+  const std::string stream = std::to_string(pipe.st_dev) + ":" + std::to_string(pipe.st_ino);
+  const Stderr replaced(ends[1]);
+  ::setenv("JOURNAL_STREAM", stream.c_str(), 1);
+  log_line("all is well");
+  log_warning("a file is missing");
+  log_limited("a message was refused");
+  log_error("no network");
+  ::setenv("JOURNAL_STREAM", "1:1", 1);
+  log_error("into another pipe");
+  ::unsetenv("JOURNAL_STREAM");
+  EXPECT_EQ(read_all(ends[0]),
+            "<6>plumb: all is well\n<4>plumb: a file is missing\n<4>plumb: a message was refused\n"
+            "<3>plumb: no network\nplumb: into another pipe\n");
+  ::close(ends[0]);
 }
 
 }  // namespace

@@ -85,6 +85,25 @@ TEST_P(ProcessTest, StopsCleanlyWhenAskedBeforeItServes) {
   }
 }
 
+TEST_P(ProcessTest, TakesLaterConfigurationsAsOverlays) {
+  const test::TempFile vehicle(".toml", "[ground]\ncamera_height_m = 1.25\nroad_near_m = 6.0\n");
+  const test::TempFile site(".toml", "[ground]\nroad_near_m = 7.0\n");
+  ChildProcess print(
+      {GetParam(), "--config", vehicle.path(), "--config", site.path(), "--print-config"});
+  EXPECT_EQ(0, print.wait());
+  EXPECT_NE(std::string::npos, print.output().find("\ncamera_height_m = 1.25 ")) << print.output();
+  EXPECT_NE(std::string::npos, print.output().find("\nroad_near_m = 7.0 ")) << print.output();
+}
+
+TEST_P(ProcessTest, OutlivesItsTerminal) {
+  ChildProcess child({GetParam(), "--lcm-url", "memq://"});
+  EXPECT_EQ(-1, child.wait(0.3));
+  child.signal(SIGHUP);
+  EXPECT_EQ(-1, child.wait(0.3));
+  child.signal(SIGTERM);
+  EXPECT_EQ(0, child.wait()) << child.output();
+}
+
 // The health messages of one program until its end.
 struct Life {
   std::vector<process_health_t> reports;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
@@ -99,17 +100,32 @@ TEST(ImageWire, ReadsRowsWithGaps) {
             }));
 }
 
+// Grey and colour, every subsampling that OpenCV writes, restart markers, progressive, odd sizes.
 TEST(ImageWire, DecodesJpegLikeOpenCv) {
-  const image_t message = jpeg_message();
-  const Bytes bytes = encoded(message);
-  ImageFrame frame;
-  ASSERT_EQ(nullptr, read_image(bytes, &frame));
-  ImageDecoder decoder(kWidth, kHeight);
-  ImageView view;
-  ASSERT_EQ(nullptr, decoder.decode(frame, &view));
-  const cv::Mat expected = cv::imdecode(message.data, cv::IMREAD_GRAYSCALE);
-  for (int v = 0; v < kHeight; ++v)
-    for (int u = 0; u < kWidth; ++u) ASSERT_EQ(expected.at<std::uint8_t>(v, u), view.at(u, v));
+  std::mt19937 random(5);
+  for (const int type : {CV_8UC1, CV_8UC3}) {
+    for (const cv::Size size : {cv::Size(96, 64), cv::Size(123, 77), cv::Size(641, 97)}) {
+      cv::Mat image(size, type);
+      for (auto i = 0; i < image.rows * image.cols * image.channels(); ++i)
+        image.data[i] = static_cast<std::uint8_t>(i * 7 / 3 + static_cast<int>(random() % 32U));
+      for (const int quality : {30, 75, 95, 100}) {
+        for (const bool progressive : {false, true}) {
+          Bytes jpeg;
+          cv::imencode(".jpg", image, jpeg,
+                       {cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_PROGRESSIVE,
+                        progressive ? 1 : 0, cv::IMWRITE_JPEG_RST_INTERVAL, quality == 30 ? 4 : 0});
+          JpegDecoder decoder(size.width, size.height);
+          ImageView view;
+          ASSERT_EQ(nullptr, decoder.decode(jpeg, &view));
+          const cv::Mat expected = cv::imdecode(jpeg, cv::IMREAD_GRAYSCALE);
+          for (int v = 0; v < size.height; ++v)
+            ASSERT_EQ(
+                0, std::memcmp(expected.ptr(v), view.row(v), static_cast<std::size_t>(size.width)))
+                << "row " << v << " of " << size << ", quality " << quality;
+        }
+      }
+    }
+  }
 }
 
 TEST(ImageWire, RefusesContradictions) {
@@ -160,6 +176,11 @@ TEST(ImageWire, RefusesBrokenJpeg) {
   };
   EXPECT_EQ("", jpeg([](image_t* m) { m->data.resize(m->data.size() + 5); })) << "zero padding";
   EXPECT_EQ("JPEG is cut off", jpeg([](image_t* m) { m->data.resize(m->data.size() / 2); }));
+  EXPECT_EQ("JPEG does not decode", jpeg([](image_t* m) {
+              m->data.resize(m->data.size() / 2);
+              m->data.insert(m->data.end(), {0xFF, 0xD9});
+            }))
+      << "its second half would be grey";
   EXPECT_EQ("compressed image is empty", jpeg([](image_t* m) { m->data.clear(); }));
   EXPECT_EQ("JPEG header contradicts the image", jpeg([](image_t* m) { m->data.assign(100, 0); }));
   // A header that claims 65535 x 65535 pixels would make the decoder allocate 4 GB.
@@ -168,6 +189,26 @@ TEST(ImageWire, RefusesBrokenJpeg) {
                 if (m->data[i] == 0xFF && m->data[i + 1] == 0xC0)
                   std::fill_n(m->data.begin() + static_cast<std::ptrdiff_t>(i) + 5, 4, 0xFF);
             }));
+}
+
+TEST(ImageWire, DecodesAfterABrokenJpegAsBefore) {
+  const image_t message = jpeg_message();
+  JpegDecoder decoder(kWidth, kHeight);
+  std::mt19937 random(3);
+  ImageView view;
+  ASSERT_EQ(nullptr, decoder.decode(message.data, &view));
+  const Bytes whole(view.data, view.data + kWidth * kHeight);
+  int num_refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Bytes noisy = message.data;
+    for (int k = 0; k < 4; ++k)
+      noisy[random() % noisy.size()] = static_cast<std::uint8_t>(random());
+    if (decoder.decode(noisy, &view) != nullptr) ++num_refused;
+    if (i % 100 != 0) continue;
+    ASSERT_EQ(nullptr, decoder.decode(message.data, &view));
+    ASSERT_EQ(whole, Bytes(view.data, view.data + kWidth * kHeight));
+  }
+  EXPECT_GT(num_refused, 100);
 }
 
 TEST(ImageWire, RefusesEveryTruncation) {

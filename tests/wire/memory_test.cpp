@@ -1,6 +1,9 @@
 // Checks that decode, from_wire, to_wire and encode do not allocate.
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
 #include "modules/camera/image_wire.hpp"
 #include "modules/ground/ground_wire.hpp"
 #include "modules/ground/pending_images.hpp"
@@ -72,7 +75,7 @@ TEST_F(WireMemory, AGreyImageIsEncodedReadAndKeptInPlace) {
   Publisher<image_t> out(bus_, kCamera, max_image_bytes(pixels.size()));
   image_t message{};
   ImageDecoder decoder(kWidth, kHeight);
-  PendingImages pending(kWidth, kHeight);
+  PendingImages pending(kWidth, kHeight, 8);
   EXPECT_EQ(0, allocations_of([&] {
               to_wire(1, 2, {pixels.data(), kWidth, kHeight, kWidth}, &message);
               ImageFrame frame;
@@ -81,6 +84,25 @@ TEST_F(WireMemory, AGreyImageIsEncodedReadAndKeptInPlace) {
               ASSERT_EQ(nullptr, decoder.decode(frame, &view));
               ASSERT_TRUE(pending.put(frame));
               ASSERT_NE(nullptr, pending.find(2, 1));
+            }));
+}
+
+TEST_F(WireMemory, AColourJpegIsDecodedInPlace) {
+  constexpr int kWidth = 1921;
+  constexpr int kHeight = 203;
+  cv::Mat image(kHeight, kWidth, CV_8UC3);
+  cv::randu(image, 0, 255);
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", image, jpeg);
+  ImageDecoder decoder(kWidth, kHeight);
+  ImageFrame frame;
+  frame.width_px = kWidth;
+  frame.height_px = kHeight;
+  frame.compressed = true;
+  frame.data = jpeg;
+  EXPECT_EQ(0, allocations_of([&] {
+              ImageView view;
+              ASSERT_EQ(nullptr, decoder.decode(frame, &view));
             }));
 }
 

@@ -211,7 +211,7 @@ TEST_F(GroundNodeTest, NeedsTimeAndNumberToMatch) {
 
 TEST_F(GroundNodeTest, LetsTheOldestImageGiveWay) {
   calibrate();
-  const auto last = static_cast<std::int64_t>(PendingImages::kSlots) + 1;
+  const auto last = std::int64_t{GroundConfig{}.images_kept} + 1;
   for (std::int64_t seq = 1; seq <= last; ++seq) image(seq);
   motion(1);
   EXPECT_TRUE(node_->waiting()) << "gone";

@@ -13,6 +13,7 @@ struct GroundConfig {
   std::string covariance = "learned";
   std::string model_file;
   int detections_delay_images = 1;
+  int images_kept = 64;
   double camera_height_m = 1.65;
   double camera_height_std_m = 0.01;
   double road_near_m = 5.5;
@@ -30,6 +31,8 @@ struct GroundConfig {
     field("ground.detections_delay_images", c.detections_delay_images, 0, 8,
           "detected objects measure the pitch this many images after their own, so that results do "
           "not depend on the detector's time; later detections are refused; 0: never used");
+    field("ground.images_kept", c.images_kept, 4, 64,
+          "images that can wait for their motion; each costs its pixels in bytes");
     field("ground.camera_height_m", c.camera_height_m, 0.3, 4.0,
           "optical centre above the road; a calibration message that states one takes precedence");
     field("ground.camera_height_std_m", c.camera_height_std_m, 0.0, 1.0,
