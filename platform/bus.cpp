@@ -17,12 +17,6 @@ namespace {
 
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-std::string resolve_url(const std::string& asked) {
-  const char* preset = std::getenv("LCM_DEFAULT_URL");
-  if (!asked.empty()) return asked;
-  return preset != nullptr && *preset != '\0' ? preset : kDefaultUrl;
-}
-
 std::unique_ptr<MessageTransport> make_transport(const std::string& url) {
   if (url.rfind("memq://", 0) == 0) return std::make_unique<MemoryTransport>();
   UdpmUrl parsed = parse_udpm_url(url);
@@ -32,7 +26,13 @@ std::unique_ptr<MessageTransport> make_transport(const std::string& url) {
 
 }  // namespace
 
-Bus::Bus(const std::string& url, Counters* counters) : url_(resolve_url(url)), counters_(counters) {
+std::string lcm_url(const std::string& asked) {
+  const char* preset = std::getenv("LCM_DEFAULT_URL");
+  if (!asked.empty()) return asked;
+  return preset != nullptr && *preset != '\0' ? preset : kDefaultUrl;
+}
+
+Bus::Bus(const std::string& url, Counters* counters) : url_(lcm_url(url)), counters_(counters) {
   try {
     transport_ = make_transport(url_);
   } catch (const std::exception& error) {

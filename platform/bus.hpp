@@ -38,6 +38,10 @@ class BusError : public std::runtime_error {
 
 class RawSubscriber;
 
+/// The URL of the network that a program uses: `asked`; when that is empty $LCM_DEFAULT_URL; when
+/// that is not set multicast that stays on this machine.
+[[nodiscard]] std::string lcm_url(const std::string& asked);
+
 /// One LCM connection.
 class Bus {
  public:
@@ -45,10 +49,8 @@ class Bus {
   /// is a third of a second at five times real time.
   static constexpr int kReceiveBufferBytes = 8 << 20;
 
-  /// Uses the network `url`, which the first subscription joins: udpm://... (udpm_url.hpp), or
-  /// memq:// for messages within this object. An empty `url` means $LCM_DEFAULT_URL or, when that
-  /// is not set, multicast that stays on this machine. `counters` outlives the bus. Throws
-  /// BusError.
+  /// Uses the network lcm_url(url), which the first subscription joins: udpm://... (udpm_url.hpp),
+  /// or memq:// for messages within this object. `counters` outlives the bus. Throws BusError.
   Bus(const std::string& url, Counters* counters);
   ~Bus();
   Bus(const Bus&) = delete;

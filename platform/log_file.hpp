@@ -89,12 +89,13 @@ class LogWriter {
 
   /// Appends one event. Throws LogError ("FILE: cannot write: No space left on device").
   void write(std::int64_t log_us, std::string_view channel, std::span<const std::uint8_t> data);
+  /// Passes everything written to the system, so that other programs can read it. Throws LogError.
+  void flush();
   /// Passes everything written to the system and closes the file. Throws LogError.
   void close();
   [[nodiscard]] std::int64_t num_events() const { return num_events_; }
 
  private:
-  void flush();
   void release() noexcept;
 
   std::string path_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <deque>
 #include <optional>
 #include <utility>
 
@@ -47,8 +48,11 @@ struct Process::Impl {
   std::vector<std::string> config_paths;
   RealtimeRequest realtime;
   bool print_config = false;
-  bool print_text = false;
-  std::function<std::string()> text;
+  struct Print {
+    bool asked = false;
+    std::function<std::string()> text;
+  };
+  std::deque<Print> prints;  ///< whose flags stay where they are
   std::function<void(CommandLine&)> declare;
   Counters counters;
   StageTimer timer;
@@ -93,8 +97,9 @@ void Process::declare_options(std::function<void(CommandLine&)> declare) {
 }
 
 void Process::declare_print(const char* flag, const char* help, std::function<std::string()> text) {
-  impl_->app.add_flag(flag, impl_->print_text, help);
-  impl_->text = std::move(text);
+  Impl::Print& print = impl_->prints.emplace_back();
+  print.text = std::move(text);
+  impl_->app.add_flag(flag, print.asked, help);
 }
 
 const std::vector<std::string>& Process::config_paths() const { return impl_->config_paths; }
@@ -122,10 +127,13 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
     if (done >= 0) return done;
     check_url(impl_->url);
     for (const std::string& path : impl_->config_paths) config.load(path);
-    if (impl_->print_config || impl_->print_text) {
-      const std::string text = impl_->print_config ? config.render() : impl_->text();
+    const auto print = [](const std::string& text) {
       std::fputs(text.c_str(), stdout);
       return std::fflush(stdout) == 0 ? kExitOk : kExitMachine;
+    };
+    if (impl_->print_config) return print(config.render());
+    for (const Impl::Print& wanted : impl_->prints) {
+      if (wanted.asked) return print(wanted.text());
     }
     serve(setup);
     return kExitOk;

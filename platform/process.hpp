@@ -68,7 +68,7 @@ class Process {
   void declare_options(std::function<void(CommandLine&)> declare);
 
   /// Adds a flag that, like --print-config, prints a text made from the configuration and ends the
-  /// program. `text` may throw InputError.
+  /// program. Of several the one declared first is printed. `text` may throw InputError.
   void declare_print(const char* flag, const char* help, std::function<std::string()> text);
 
   /// Parses the options, fills `config`, joins the LCM network, calls `setup` and serves until a

@@ -1,17 +1,19 @@
 #include "modules/can/can_dbc.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "modules/can/can_load.hpp"
+#include "modules/can/can_text.hpp"
 
 namespace plumb {
 namespace {
+
+using can_text::has_sna;
+using can_text::join;
+using can_text::number_text;
+using can_text::with_index;
 
 constexpr const char* kHead =
     "NS_ :\n\tCM_\n\tBA_DEF_\n\tBA_\n\tVAL_\n\tBA_DEF_DEF_\n\n"
@@ -46,41 +48,6 @@ struct DbcSignal {
   std::string comment;
   std::string multiplexing;  ///< "", "M", "m3"
 };
-
-template <typename... Parts>
-std::string join(const Parts&... parts) {
-  std::string text;
-  (text.append(std::string_view(parts)), ...);
-  return text;
-}
-
-/// Decimal text, without exponent and trailing zeros.
-std::string number_text(double value) {
-  constexpr int kDecimals = 9;
-  std::array<char, 64> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value,
-                                    std::chars_format::fixed, kDecimals);
-  std::string out(text.data(), result.ptr);
-  out.erase(out.find_last_not_of('0') + 1);
-  if (out.back() == '.') out.pop_back();
-  return out;
-}
-
-std::string upper(std::string text) {
-  for (char& c : text) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return text;
-}
-
-std::string with_index(std::string text, std::size_t index) {
-  std::replace(text.begin(), text.end(), '#', static_cast<char>('0' + index));
-  return text;
-}
-
-bool has_sna(const Signal& signal) {
-  return signal.layout.has_sna && source_of(signal) != CanSource::kFraming;
-}
 
 std::string comment_of(const Signal& signal) {
   std::string text = signal.comment;
@@ -122,26 +89,12 @@ std::string signal_line(const DbcSignal& signal) {
               number_text(max_physical(l)), "] \"", signal.row->unit, "\" Receiver\n");
 }
 
-/// Name of a raw value whose bits are named, "NONE", "ALL" or "DENSE_POINTS".
-std::string flags_name(std::span<const char* const> names, std::size_t bits) {
-  if (bits == 0) return "NONE";
-  if (bits + 1 == std::size_t{1} << names.size()) return "ALL";
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if ((bits >> i & 1U) != 0) text.append(text.empty() ? "" : "_").append(upper(names[i]));
-  }
-  return text;
-}
-
 std::string values_line(const Message& message, const DbcSignal& signal) {
   const Signal& row = *signal.row;
-  const std::size_t num_names =
-      row.names_are_flags ? std::size_t{1} << row.names.size() : row.names.size();
   std::string list;
-  for (std::size_t i = 0; i < num_names; ++i) {
-    const std::string name = row.names_are_flags ? flags_name(row.names, i) : upper(row.names[i]);
-    list += join(" ", std::to_string(i), " \"", name, "\"");
-  }
+  const std::vector<std::string> names = can_text::value_names(row);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list += join(" ", std::to_string(i), " \"", names[i], "\"");
   if (has_sna(row)) list += join(" ", std::to_string(sna_raw(row.layout)), " \"SNA\"");
   if (list.empty()) return "";
   return join("VAL_ ", id_text(message), " ", signal.name, list, " ;\n");

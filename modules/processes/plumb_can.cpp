@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "modules/can/can_c_header.hpp"
 #include "modules/can/can_dbc.hpp"
 #include "modules/can/can_wire.hpp"
 #include "modules/chain/plumb_config.hpp"
@@ -119,6 +120,8 @@ int main(int argc, char** argv) {
   plumb::PlumbConfig config;
   process.declare_print("--print-dbc", "print the CAN database of the configuration, then exit",
                         [&] { return render_dbc(config.can, can_messages(config.can)); });
+  process.declare_print("--print-c-header", "print a C header for receivers, then exit",
+                        [&] { return render_c_header(config.can, can_messages(config.can)); });
   plumb::CanSinks sinks;
   std::optional<plumb::CanProcess> can;
   const int code = process.run(argc, argv, &config, [&] {
