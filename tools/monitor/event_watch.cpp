@@ -23,6 +23,14 @@ const char* mount_reason_word(int n) { return word(kMountReasonNames, n); }
 
 constexpr const char* kHealthStates[] = {"running", "waiting for input", "degraded", "stopping"};
 
+constexpr int kDegradedState = 2;
+
+/// A reason that differs from another in its figures alone is no news.
+std::string without_digits(std::string text) {
+  std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
+  return text;
+}
+
 EventLevel level_of(bool is_lost, bool is_fine) {
   if (is_lost) return EventLevel::kAlarm;
   return is_fine ? EventLevel::kInfo : EventLevel::kWarning;
@@ -104,9 +112,10 @@ void EventWatch::take(const mount_t& message) {
 void EventWatch::tell_losses(const process_health_t& message, const char* process, Health* last) {
   const std::int64_t num_bad = message.num_rejected + message.num_dropped + message.num_late +
                                message.num_skipped + message.num_unsent;
-  if (last->state >= 0 && num_bad > last->num_bad)
+  // A state that says so is an event of its own.
+  if (last->state >= 0 && num_bad > last->num_bad && message.state != kDegradedState)
     sink_(EventLevel::kWarning, process,
-          format("%lld messages more were rejected, dropped, late, skipped or unsent",
+          format("rejected, dropped, late, skipped or unsent: %lld more",
                  static_cast<long long>(num_bad - last->num_bad)));
   last->num_bad = num_bad;
 }
@@ -118,16 +127,18 @@ void EventWatch::take(const process_health_t& message, std::int64_t now_us) {
   Health& last = health_[i];
   if (last.silent) sink_(EventLevel::kInfo, kChainProcesses[i], "reports again");
   tell_losses(message, kChainProcesses[i], &last);
-  if (message.state != last.state || message.state_reason != last.reason) {
+  const std::string reason = without_digits(message.state_reason);
+  if (message.state != last.state || reason != last.reason) {
     const bool known = message.state >= 0 && message.state < 4;
     std::string text = known ? kHealthStates[message.state] : "state ?";
     if (!message.state_reason.empty()) text += ": " + message.state_reason;
-    sink_(message.state == 2 ? EventLevel::kWarning : EventLevel::kInfo, kChainProcesses[i], text);
+    const bool is_worse = message.state == kDegradedState;
+    sink_(is_worse ? EventLevel::kWarning : EventLevel::kInfo, kChainProcesses[i], text);
   }
   last.time_us = now_us;
   last.silent = false;
   last.state = message.state;
-  last.reason = message.state_reason;
+  last.reason = reason;
 }
 
 void EventWatch::check_silence(std::int64_t now_us) {

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 
-#include "core/channels.hpp"
 #include "modules/mount/mount_wire.hpp"
 #include "platform/bounded_decode.hpp"
 #include "tools/monitor/hello.hpp"

@@ -15,6 +15,7 @@
 #include <memory>
 #include <string>
 
+#include "core/channels.hpp"
 #include "modules/chain/chain.hpp"
 #include "platform/log_file.hpp"
 #include "tools/monitor/can_view.hpp"

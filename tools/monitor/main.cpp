@@ -67,6 +67,9 @@ int show_log(const Arguments& arguments, const PlumbConfig& config) {
 }
 
 int run(const Arguments& arguments) {
+  if (page_files().empty())
+    throw InputError(
+        "this program was built without its page, because npm could not fetch its packages");
   PlumbConfig config;
   load_config(arguments.config, &config);
   return arguments.log.empty() ? watch_bus(arguments, config) : show_log(arguments, config);

@@ -7,6 +7,7 @@
 
 namespace plumb {
 
+/// Empty when the page could not be bundled, for want of npm.
 [[nodiscard]] std::vector<WebFile> page_files();
 
 }  // namespace plumb

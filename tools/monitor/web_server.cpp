@@ -1,5 +1,6 @@
 #include "tools/monitor/web_server.hpp"
 
+#include <fcntl.h>
 #include <libwebsockets.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -303,6 +304,7 @@ WebServer::WebServer(const WebAddress& address, std::vector<WebFile> files, Moni
   shared.listening_fd =
       address.listening_fd >= 0 ? address.listening_fd : listen_on(address.host, address.port);
   port_ = listening_port(shared.listening_fd);
+  ::fcntl(shared.listening_fd, F_SETFL, O_NONBLOCK);  // another program may have opened it
   lws_set_log_level(LLL_ERR, [](int, const char* line) {
     log_limited("web server: %s", std::string(line).substr(0, 160).c_str());
   });

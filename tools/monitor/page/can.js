@@ -65,6 +65,7 @@ function fillMessage(card, message, state) {
   shownSignals(message).forEach(({ signal, i }, row) => {
     const cell = rows[row].children[1];
     const values = lists.slice(0, 3).map((list) => signalText(signal, list?.[i] ?? null));
+    if (lists.length > 3) values.push('…');
     setText(cell, values.length ? values.join(' · ') : 'n/a');
     setAttribute(cell, 'data-raw', lists[0]?.[i] ?? null);
     setAttribute(cell, 'data-signal', signal.name);
