@@ -135,21 +135,26 @@ CanTraceReader::CanTraceReader(const std::string& path)
   if (!file_) error_ = path + ": cannot read: " + std::strerror(errno);
 }
 
+bool read_trace_line(const char* line, std::int64_t* time_us, CanFrame* frame) {
+  std::int64_t seconds = 0;
+  std::int64_t micros = 0;
+  char text[256];
+  char rest = '\0';
+  if (std::sscanf(line, "(%" SCNd64 ".%6" SCNd64 ") %*15s %255s %c", &seconds, &micros, text,
+                  &rest) != 3 ||
+      !parse_frame(text, frame)) {
+    return false;
+  }
+  *time_us = seconds * kSecondUs + micros;
+  return true;
+}
+
 bool CanTraceReader::next(std::int64_t* time_us, CanFrame* frame) {
   char line[512];
   while (error_.empty() && std::fgets(line, sizeof line, file_.get()) != nullptr) {
     ++line_;
     if (line[0] == '\n') continue;
-    std::int64_t seconds = 0;
-    std::int64_t micros = 0;
-    char text[256];
-    char rest = '\0';
-    if (std::sscanf(line, "(%" SCNd64 ".%6" SCNd64 ") %*15s %255s %c", &seconds, &micros, text,
-                    &rest) == 3 &&
-        parse_frame(text, frame)) {
-      *time_us = seconds * kSecondUs + micros;
-      return true;
-    }
+    if (read_trace_line(line, time_us, frame)) return true;
     error_ = path_ + ":" + std::to_string(line_) + ": not a CAN frame";
   }
   return false;

@@ -62,6 +62,9 @@ class CanTraceWriter final : public CanSink {
   std::atomic<bool> gives_up_ = false;
 };
 
+/// Reads one line of a trace, with or without its line break. Returns false when it is no frame.
+[[nodiscard]] bool read_trace_line(const char* line, std::int64_t* time_us, CanFrame* frame);
+
 /// Reads a trace line by line; empty lines are skipped.
 class CanTraceReader {
  public:
