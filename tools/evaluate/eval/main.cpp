@@ -6,8 +6,10 @@
 
 #include "core/input_error.hpp"
 #include "modules/datasets/number_file.hpp"
+#include "modules/datasets/text.hpp"
 #include "platform/command_line.hpp"
 #include "platform/overwrite_guard.hpp"
+#include "tools/evaluate/eval/height_command.hpp"
 #include "tools/evaluate/eval/plots.hpp"
 #include "tools/evaluate/eval/report_json.hpp"
 #include "tools/evaluate/eval/report_text.hpp"
@@ -24,6 +26,8 @@ constexpr const char* kFooter = R"(Examples
   plumb-eval poses/05.txt out/05.txt --lengths 10,20,50  for a short drive
   plumb-eval --gt-dir poses --est-dir out --json all.json --plots pictures
   plumb-eval plane gt_ground_plane_velodyne.txt out/04.csv
+  plumb-eval height poses/04.txt out/04.csv              height by the true step
+  plumb-eval compare a/heights.csv b/heights.csv --of fused --against fused
   plumb-eval objects kitti/tracking --boxes det2d/CIWT   from boxes alone
   plumb-eval placed drive0009 frames.csv objects.csv     whole chain
 
@@ -33,6 +37,7 @@ struct Arguments {
   std::string gt, est, gt_dir, est_dir;
   std::string plane_gt, plane_est;
   std::string lengths = "new";
+  std::string samples;
   ReportOptions report;
   EvalOptions options;
 };
@@ -62,6 +67,18 @@ void give_out(const Arguments& arguments, const Report& report) {
   }
 }
 
+/// Translation errors of every segment [%], of the kind of its length.
+std::vector<ErrorSample> samples_of(const std::vector<SequenceReport>& sequences) {
+  std::vector<ErrorSample> samples;
+  for (const SequenceReport& sequence : sequences) {
+    for (const SegmentError& segment : sequence.segments) {
+      samples.push_back({sequence.name, segment.first_frame, format("%g", segment.length_m),
+                         100.0 * segment.t_ratio});
+    }
+  }
+  return samples;
+}
+
 int evaluate_trajectories(Arguments arguments) {
   const bool pair = !arguments.gt.empty() && !arguments.est.empty();
   const bool folders = !arguments.gt_dir.empty() && !arguments.est_dir.empty();
@@ -74,6 +91,7 @@ int evaluate_trajectories(Arguments arguments) {
       .reads_folder("--gt-dir", arguments.gt_dir, {".txt"})
       .reads_folder("--est-dir", arguments.est_dir, {".txt"})
       .writes("--json", arguments.report.json)
+      .writes("--samples", arguments.samples)
       .check();
   arguments.options.metric.lengths_m = parse_lengths(arguments.lengths);
   std::vector<SequenceReport> sequences;
@@ -83,6 +101,7 @@ int evaluate_trajectories(Arguments arguments) {
     const std::string name = std::filesystem::path(arguments.est).stem().string();
     sequences = {evaluate_sequence(name, arguments.gt, arguments.est, arguments.options)};
   }
+  if (!arguments.samples.empty()) write_error_samples(samples_of(sequences), arguments.samples);
   give_out(arguments, pool(std::move(sequences), arguments.options));
   return 0;
 }
@@ -123,6 +142,8 @@ CommandLine add_options(CommandLine* app, Arguments* arguments) {
       .capture_default_str();
   app->add_flag("--allow-partial", arguments->options.allow_partial,
                 "compare the rows both files have when their number differs");
+  app->add_option("--samples", arguments->samples,
+                  "file for the translation error of every segment [%]");
   add_report_options(app, &arguments->report);
   CommandLine plane = app->add_subcommand("plane", "compare ground planes instead");
   plane.add_option("GT_PLANE", arguments->plane_gt, "rows: frame nx ny nz height_m ...").required();
@@ -140,11 +161,17 @@ int main(int argc, char** argv) {
   plumb::CommandLine app(
       "Measures errors of trajectories, ground planes and objects against the truth", "plumb-eval");
   const plumb::CommandLine plane = plumb::add_options(&app, &arguments);
+  plumb::HeightCommand height_command;
+  const plumb::CommandLine height = plumb::add_height_command(&app, &height_command);
+  plumb::CompareCommand compare_command;
+  const plumb::CommandLine compare = plumb::add_compare_command(&app, &compare_command);
   plumb::ObjectsCommand objects_command;
   const plumb::CommandLine objects = plumb::add_objects_command(&app, &objects_command);
   plumb::PlacementCommand placement_command;
   const plumb::CommandLine placed = plumb::add_placement_command(&app, &placement_command);
   return plumb::tool_main(&app, argc, argv, [&] {
+    if (height.parsed()) return plumb::run_height_command(height_command);
+    if (compare.parsed()) return plumb::run_compare_command(compare_command);
     if (placed.parsed()) return plumb::run_placement_command(placement_command);
     if (objects.parsed()) return plumb::run_objects_command(objects_command);
     return plane.parsed() ? plumb::evaluate_planes(arguments)

@@ -16,6 +16,16 @@ Json to_json(const VarianceScore& score) {
   return {{"num", score.num}, {"nees", score.nees}, {"log_likelihood", score.log_likelihood}};
 }
 
+Json to_json(const ConfidenceFit& fit) {
+  Json json = {{"name", fit.name},
+               {"offset", fit.line.offset},
+               {"slope", fit.line.slope},
+               {"bins", Json::array()}};
+  for (const ConfidenceBin& bin : fit.bins)
+    json["bins"].push_back({{"confidence", bin.centre}, {"variance", bin.variance}});
+  return json;
+}
+
 Json model_json(const TrainedModels& models) {
   Json json;
   TrainedModels copy = models;
@@ -94,7 +104,9 @@ void write_json(const FitReport& report, const std::filesystem::path& path) {
   Json json = {{"model", model_json(report.models)},
                {"held_out", Json::array()},
                {"outputs", Json::array()},
-               {"cues", Json::array()}};
+               {"cues", Json::array()},
+               {"paper", Json::array()}};
+  for (const ConfidenceFit& fit : report.paper) json["paper"].push_back(to_json(fit));
   for (const HeldOutScore& s : report.held_out) {
     json["held_out"].push_back({{"drive", s.drive},
                                 {"target", target_name(s.target)},
