@@ -30,7 +30,7 @@ file(REMOVE_RECURSE ${made})
 # Later stages come first when CPUs are scarce: what is measured must reach the bus.
 write_unit(can "the results on CAN" 30 24M FAMILIES " AF_CAN" OPTIONS " --interface \${CAN_INTERFACE}")
 write_unit(objects "objects on the road" 10 32M AFTER " plumb-can.service")
-write_unit(ground "the road plane and the scale" 20 128M AFTER " plumb-can.service plumb-objects.service")
+write_unit(ground "the road plane and the scale" 20 256M AFTER " plumb-can.service plumb-objects.service")
 write_unit(vo "visual odometry" 20 128M AFTER " plumb-ground.service")
 # A camera may be plugged in at any time, so it is looked for without end.
 write_unit(camera "the camera" 25 192M AFTER " plumb-vo.service plumb-ground.service"

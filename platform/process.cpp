@@ -155,10 +155,14 @@ void Process::Impl::report(Publisher<process_health_t>& publisher) {
   const process_health_t& message = health.report(now_us, counters, *bus, timer);
   publisher.publish(message);
   const char* status = message.state_reason.empty() ? "running" : message.state_reason.c_str();
-  if (output.judge(now_us, *bus, counters, health.has_condition())) {
-    is_ready ? manager.alive(status) : manager.ready(status);
+  const bool is_well = output.judge(now_us, *bus, counters, health.has_condition());
+  if (!is_ready) {
+    manager.ready(status);  // nothing can have been published yet
+    is_ready = true;
+  } else if (is_well) {
+    manager.alive(status);
   } else {
-    manager.show(is_ready ? "no output, though all inputs arrive" : status);
+    manager.show("there is no output, though there should be");
   }
 }
 
@@ -179,7 +183,6 @@ void Process::serve(const std::function<void()>& setup) {
   p.loop->every(kHealthPeriod_us, [&p, &publisher] { p.report(publisher); });
   warn(enter_realtime(p.realtime));
   p.report(publisher);
-  p.is_ready = true;
   p.loop->run();
 
   const int signal = p.loop->stop_signal();

@@ -9,6 +9,7 @@
 
 #include "platform/clock.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/notify_socket.hpp"
 #include "tests/support/private_network.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -95,13 +96,52 @@ TEST_P(ProcessTest, TakesLaterConfigurationsAsOverlays) {
   EXPECT_NE(std::string::npos, print.output().find("\nroad_near_m = 7.0 ")) << print.output();
 }
 
-TEST_P(ProcessTest, OutlivesItsTerminal) {
-  ChildProcess child({GetParam(), "--lcm-url", "memq://"});
-  EXPECT_EQ(-1, child.wait(0.3));
-  child.signal(SIGHUP);
-  EXPECT_EQ(-1, child.wait(0.3));
+// Waits until systemd has heard `count` messages of the program, for up to 10 s.
+std::vector<std::string> hear(test::NotifySocket& manager, ChildProcess& child, std::size_t count) {
+  std::vector<std::string> all;
+  const std::int64_t end_us = monotonic_us() + 10'000'000;
+  while (all.size() < count && monotonic_us() < end_us && child.wait(0.02) < 0) {
+    for (std::string text = manager.heard(); !text.empty(); text = manager.heard())
+      all.push_back(text);
+  }
+  return all;
+}
+
+std::string notify_name() { return "@plumb-test-" + std::to_string(::getpid()); }
+
+// What a program tells systemd: twice while it serves, and at its end.
+std::vector<std::string> told(std::vector<std::string> arguments) {
+  test::NotifySocket manager(notify_name());
+  ChildProcess child(std::move(arguments));
+  std::vector<std::string> all = hear(manager, child, 2);
   child.signal(SIGTERM);
   EXPECT_EQ(0, child.wait()) << child.output();
+  for (std::string text = manager.heard(); !text.empty(); text = manager.heard())
+    all.push_back(text);
+  return all;
+}
+
+TEST_P(ProcessTest, OutlivesItsTerminal) {
+  test::NotifySocket manager(notify_name());
+  ChildProcess child({GetParam(), "--lcm-url", "memq://"});
+  ASSERT_EQ(1U, hear(manager, child, 1).size());
+  child.signal(SIGHUP);
+  EXPECT_EQ(2U, hear(manager, child, 2).size()) << "it serves on";
+  child.signal(SIGTERM);
+  EXPECT_EQ(0, child.wait()) << child.output();
+}
+
+TEST(Supervision, SystemdHearsThatAProcessServesAndThatItsOutputIsWhatItShouldBe) {
+  const auto vo = told({"plumb-vo", "--lcm-url", "memq://"});
+  ASSERT_GE(vo.size(), 3U);
+  EXPECT_EQ("READY=1\nWATCHDOG=1\nSTATUS=no CAMERA_CALIBRATION yet\n", vo[0]);
+  EXPECT_EQ("WATCHDOG=1\nSTATUS=no CAMERA_CALIBRATION yet\n", vo[1]);
+  EXPECT_EQ("STOPPING=1\nSTATUS=SIGTERM\n", vo.back());
+  const test::TempFile trace(".can");
+  const auto can = told({"plumb-can", "--lcm-url", "memq://", "--trace", trace.path()});
+  ASSERT_GE(can.size(), 3U);
+  EXPECT_EQ(0U, can[0].find("READY=1\n")) << can[0];
+  EXPECT_EQ(0U, can[1].find("WATCHDOG=1\n")) << can[1];
 }
 
 // The health messages of one program until its end.

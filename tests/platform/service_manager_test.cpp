@@ -2,50 +2,22 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <string>
 
+#include "tests/support/notify_socket.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace plumb {
 namespace {
 
-/// The manager's end of the socket.
-class Manager {
- public:
-  /// A `name` that begins with @ is outside the file system.
-  explicit Manager(const std::string& name) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::memcpy(address.sun_path, name.data(), name.size());
-    if (name[0] == '@') address.sun_path[0] = '\0';
-    socket_ = FileDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    const auto bytes = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
-    EXPECT_EQ(0, ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), bytes));
-    ::setenv("NOTIFY_SOCKET", name.c_str(), 1);
-  }
-  ~Manager() { ::unsetenv("NOTIFY_SOCKET"); }
-  Manager(const Manager&) = delete;
-  Manager& operator=(const Manager&) = delete;
-
-  std::string heard() {
-    std::array<char, 512> text{};
-    const ssize_t n = ::recv(socket_.get(), text.data(), text.size(), 0);
-    return n > 0 ? std::string(text.data(), static_cast<std::size_t>(n)) : "";
-  }
-
- private:
-  FileDescriptor socket_;
-};
-
 TEST(ServiceManager, IsToldInItsOwnWords) {
   const test::TempFile path(".socket", "");
   std::filesystem::remove(path.path());
+  using test::NotifySocket;
   for (const std::string& name : {path.path(), "@plumb-test-" + std::to_string(::getpid())}) {
-    Manager manager(name);
+    NotifySocket manager(name);
     ServiceManager client;
     ASSERT_TRUE(client.is_there());
     client.ready("running");
