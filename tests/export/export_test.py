@@ -234,6 +234,19 @@ class ExportTest(unittest.TestCase):
             self.assertAlmostEqual(twist[5], float(row['yaw_rate_rad_s']), delta=2e-3)
             self.assertGreaterEqual(twist_covariance[0] * (1 + 1e-12), float(row['speed_std_m_s']) ** 2)
 
+    def test_exported_images_become_a_log_again(self):
+        calibration = self.json('/camera/calibration')[0][1]
+        fx, cx, fy, cy = (calibration['K'][i] for i in (0, 2, 4, 5))
+        camera = self.folder / 'camera.toml'
+        camera.write_text(f'[camera]\nfx_px = {fx}\nfy_px = {fy}\ncx_px = {cx}\ncy_px = {cy}\ncamera_height_m = 1.65\n')
+        logs = []
+        for name in ('a', 'ros2'):
+            done = run('plumb-convert', self.folder / f'{name}.mcap', '--camera', camera, '--out', self.folder / 'back.lcm')
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
+            self.assertIn('100 frames of 832x252, 9.9 s', done.stdout)
+            logs.append((self.folder / 'back.lcm').read_bytes())
+        self.assertEqual(logs[0], logs[1])
+
     def test_refuses_in_one_sentence(self):
         log = self.folder / 'copy.lcm'
         log.write_bytes(DRIVE.read_bytes()[:2000000])

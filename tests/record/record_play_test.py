@@ -140,6 +140,14 @@ class RecordPlayTest(unittest.TestCase):
     def test_play_says_who_does_not_listen(self):
         self.assertIn('plumb-vo does not listen', self.play(DRIVE, expect=3))
 
+    def test_spy_builds_every_message_or_says_what_is_missing(self):
+        done = subprocess.run([ROOT / 'tools/spy', '--build-only'], capture_output=True, text=True)
+        if done.returncode == 0:
+            self.assertIn(f"{len(list((ROOT / 'lcmtypes').glob('*.lcm')))} messages", done.stdout)
+        else:
+            self.assertIn('missing Debian packages: apt-get install', done.stderr)
+            self.assertEqual((done.returncode, done.stderr.count('\n')), (2, 1))
+
     def test_refusals_are_one_sentence(self):
         log = self.folder / 'old.lcm'
         log.write_text('old')

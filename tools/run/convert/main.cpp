@@ -1,4 +1,5 @@
-/// plumb-convert: converts a video or a folder of images to an LCM log for plumb-replay.
+/// plumb-convert: converts a video, a folder of images or a camera topic in MCAP to an LCM log for
+/// plumb-replay.
 
 #include <filesystem>
 #include <iostream>
@@ -17,6 +18,7 @@
 #include "platform/overwrite_guard.hpp"
 #include "tools/run/convert/camera_file.hpp"
 #include "tools/run/convert/convert.hpp"
+#include "tools/run/convert/mcap_source.hpp"
 #include "tools/support/stop_flag.hpp"
 #include "tools/support/tool_main.hpp"
 
@@ -26,16 +28,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFooter =
     R"(RECORDING is a video file, or a folder of images (jpg, png, bmp, pgm, ppm, tif, webp) in the order of their names,
-in which frame_9 is before frame_10. Colour becomes grey. The log has what plumb-camera would publish: rectified and
+in which frame_9 is before frame_10, or an MCAP file (also of ROS 2) with camera images. Colour becomes grey. The log has what plumb-camera would publish: rectified and
 masked as the camera file says.
 
 The camera file is TOML with [camera] (docs/add_a_camera.md), or a KITTI calib.txt.
 
 Times of images come from --rate, from a file of times, or from names that end in a time since 1970. Numbers in the
-names count frames, so that missing images leave their gap.
+names count frames, so that missing images leave their gap. Messages in MCAP have times of their own.
 
 Examples
   plumb-convert dashcam.mp4 --camera camera.toml --out drive.lcm
+  plumb-convert bag_0.mcap --topic /camera/image/compressed --camera camera.toml --out drive.lcm
   plumb-convert frames --rate 20 --camera camera.toml --compress jpeg --out drive.lcm
   plumb-replay drive.lcm --csv drive.csv --poses drive.txt)";
 
@@ -45,13 +48,15 @@ struct Arguments {
   fs::path times;
   fs::path vehicle_speed;
   double rate_hz = 0.0;
+  std::string topic;
   std::string compress = "none";
   plumb::RecordingOptions options;
 };
 
 void add_options(plumb::CommandLine* app, Arguments* arguments) {
   app->footer(kFooter);
-  app->add_option("RECORDING", arguments->recording, "video file or folder of images").required();
+  app->add_option("RECORDING", arguments->recording, "video file, folder of images, or MCAP file")
+      .required();
   app->add_option("--out", arguments->options.out, "log to write").required();
   app->add_option("--camera", arguments->camera,
                   "camera file [camera.toml or calib.txt in the recording's folder or above it]");
@@ -62,6 +67,7 @@ void add_options(plumb::CommandLine* app, Arguments* arguments) {
       .excludes(rate);
   app->add_option("--vehicle-speed", arguments->vehicle_speed,
                   "speeds of the vehicle, one per line and image, m/s; written as VEHICLE_SPEED");
+  app->add_option("--topic", arguments->topic, "topic of an MCAP file [the only one with images]");
   app->add_option("--compress", arguments->compress,
                   "none: plain pixels; jpeg: quality 95, about a third of the size")
       .check(plumb::one_of({"none", "jpeg"}))
@@ -97,12 +103,16 @@ void refuse_overwriting(const Arguments& arguments) {
 }
 
 std::unique_ptr<plumb::RecordedSource> open_recording(const Arguments& arguments) {
+  if (!arguments.topic.empty() && arguments.recording.extension() != ".mcap")
+    throw plumb::InputError("--topic is for an MCAP file");
   if (fs::is_directory(arguments.recording)) {
     return std::make_unique<plumb::FolderSource>(
         plumb::ImageFolderOptions{arguments.recording, arguments.rate_hz, arguments.times});
   }
   if (arguments.rate_hz > 0.0 || !arguments.times.empty())
-    throw plumb::InputError("--rate and --times are for a folder; a video has times of its own");
+    throw plumb::InputError("--rate and --times are for a folder; a file has times of its own");
+  if (arguments.recording.extension() == ".mcap")
+    return std::make_unique<plumb::McapSource>(arguments.recording.string(), arguments.topic);
   return std::make_unique<plumb::VideoSource>(arguments.recording.string());
 }
 
@@ -154,7 +164,8 @@ int main(int argc, char** argv) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   plumb::set_log_name("plumb-convert");
   Arguments arguments;
-  plumb::CommandLine app("Converts a video or a folder of images to an LCM log", "plumb-convert");
+  plumb::CommandLine app("Converts a video, a folder of images or an MCAP file to an LCM log",
+                         "plumb-convert");
   add_options(&app, &arguments);
   return plumb::tool_main(&app, argc, argv, [&] { return run(&arguments); });
 }

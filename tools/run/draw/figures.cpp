@@ -30,7 +30,7 @@ FrameFigures figures_of(const CsvTable& table, std::size_t row) {
              n3 = table.number(row, "n3"), height = table.number(row, "height_m");
   if (n1 && n2 && n3 && height) figures.plane = RoadPlane{{*n1, *n2, *n3}, *height};
   figures.lines = {
-      format("frame %s   vo %s   plane %s   motion %s", text_of(table, row, "seq").c_str(),
+      format("frame %s, vo %s, plane %s, motion %s", text_of(table, row, "seq").c_str(),
              text_of(table, row, "vo_status").c_str(), text_of(table, row, "plane_status").c_str(),
              text_of(table, row, "ego_status").c_str()),
       figure(table, row, "speed", "speed_m_s", "speed_std_m_s", 1.0, "m/s"),

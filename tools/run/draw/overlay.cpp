@@ -5,15 +5,16 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "tools/run/draw/labels.hpp"
+
 namespace plumb {
 namespace {
 
 const cv::Scalar kRoadColour(80, 220, 120);
 const cv::Scalar kHorizonColour(60, 160, 255);
 const cv::Scalar kPathColour(255, 200, 80);
-const cv::Scalar kTextColour(255, 255, 255);
 const cv::Scalar kObjectColour(90, 90, 255);
-const cv::Scalar kPredictedColour(200, 120, 200);
+const cv::Scalar kPredictedColour(240, 150, 230);
 constexpr double kNearest_m = 4.0;
 constexpr double kNearestPoint_m = 0.5;
 constexpr double kWidestRatio =
@@ -30,36 +31,47 @@ Eigen::Vector3d on_road(const RoadPlane& plane, double right_m, double ahead_m) 
   return {right_m, down_m, ahead_m};
 }
 
-void draw_road_line(cv::Mat* picture, const CameraModel& camera, const Eigen::Vector3d& from,
-                    const Eigen::Vector3d& to) {
+/// What everything is drawn on.
+struct Canvas {
+  cv::Mat* picture;
+  const CameraModel& camera;
+  const LabelStyle& style;
+};
+
+void draw_road_line(const Canvas& canvas, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   constexpr int kPieces = 24;  // The residual radial term bends straight lines.
-  cv::Point2d last = to_point(camera.project(from));
+  cv::Point2d last = to_point(canvas.camera.project(from));
   for (int i = 1; i <= kPieces; ++i) {
     const double share = static_cast<double>(i) / kPieces;
-    const cv::Point2d next = to_point(camera.project(from + share * (to - from)));
-    cv::line(*picture, last, next, kRoadColour, 1, cv::LINE_AA);
+    const cv::Point2d next = to_point(canvas.camera.project(from + share * (to - from)));
+    cv::line(*canvas.picture, last, next, kRoadColour, canvas.style.line_width, cv::LINE_AA);
     last = next;
   }
 }
 
-void draw_road(cv::Mat* picture, const CameraModel& camera, const RoadPlane& plane) {
+void draw_road(const Canvas& canvas, const RoadPlane& plane) {
   for (double right = -kHalfWidth_m; right <= kHalfWidth_m + 0.1; right += 1.8) {
-    draw_road_line(picture, camera, on_road(plane, right, kNearest_m),
-                   on_road(plane, right, kFarthest_m));
+    draw_road_line(canvas, on_road(plane, right, kNearest_m), on_road(plane, right, kFarthest_m));
   }
   for (const double ahead : {5.0, 10.0, 15.0, 20.0, 30.0, 40.0}) {
-    draw_road_line(picture, camera, on_road(plane, -kHalfWidth_m, ahead),
+    draw_road_line(canvas, on_road(plane, -kHalfWidth_m, ahead),
                    on_road(plane, kHalfWidth_m, ahead));
-    const cv::Point2d label = to_point(camera.project(on_road(plane, kHalfWidth_m, ahead)));
-    cv::putText(*picture, std::to_string(static_cast<int>(ahead)) + " m", label + cv::Point2d(4, 4),
-                cv::FONT_HERSHEY_SIMPLEX, 0.4, kRoadColour, 1, cv::LINE_AA);
   }
+  const CameraModel& camera = canvas.camera;
   const double row = horizon_row_px(camera, plane);
   const double slope = -plane.normal_cam.x() / plane.normal_cam.y();
-  const auto width = static_cast<double>(picture->cols);
-  cv::line(*picture, cv::Point2d(0.0, row - slope * camera.cx_px),
-           cv::Point2d(width, row + slope * (width - camera.cx_px)), kHorizonColour, 1,
-           cv::LINE_AA);
+  const auto width = static_cast<double>(canvas.picture->cols);
+  cv::line(*canvas.picture, cv::Point2d(0.0, row - slope * camera.cx_px),
+           cv::Point2d(width, row + slope * (width - camera.cx_px)), kHorizonColour,
+           canvas.style.line_width, cv::LINE_AA);
+}
+
+/// Distances beside the grid; those that say most come first.
+void label_road(const Canvas& canvas, const RoadPlane& plane, LabelPlacer* labels) {
+  for (const int ahead : {10, 20, 40, 5, 30, 15}) {
+    const cv::Point2d end = to_point(canvas.camera.project(on_road(plane, kHalfWidth_m, ahead)));
+    labels->place(std::to_string(ahead) + " m", end, kRoadColour);
+  }
 }
 
 /// Corners in cam: the underside, then the top, both in order around the box.
@@ -89,58 +101,79 @@ bool is_in_sight(const Eigen::Vector3d& p_cam) {
 }
 
 /// The visible part of an edge. The image's border cuts objects beside the camera.
-void draw_edge(cv::Mat* picture, const CameraModel& camera, const Eigen::Vector3d& from,
-               const Eigen::Vector3d& to, const cv::Scalar& colour) {
+void draw_edge(const Canvas& canvas, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+               const cv::Scalar& colour) {
   constexpr int kPieces = 16;
   Eigen::Vector3d last = from;
   for (int i = 1; i <= kPieces; ++i) {
     const Eigen::Vector3d next = from + static_cast<double>(i) / kPieces * (to - from);
     if (is_in_sight(last) && is_in_sight(next)) {
-      cv::line(*picture, to_point(camera.project(last)), to_point(camera.project(next)), colour, 1,
-               cv::LINE_AA);
+      cv::line(*canvas.picture, to_point(canvas.camera.project(last)),
+               to_point(canvas.camera.project(next)), colour, canvas.style.line_width, cv::LINE_AA);
     }
     last = next;
   }
 }
 
-void draw_object(cv::Mat* picture, const CameraModel& camera, const RoadPlane& plane,
-                 const ObjectFigure& object) {
+void draw_object(const Canvas& canvas, const RoadPlane& plane, const ObjectFigure& object) {
   const std::array<Eigen::Vector3d, 8> corners = corners_of(object, plane);
   const cv::Scalar& colour = object.measured ? kObjectColour : kPredictedColour;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t next = (i + 1) % 4;
-    draw_edge(picture, camera, corners[i], corners[next], colour);
-    draw_edge(picture, camera, corners[i + 4], corners[next + 4], colour);
-    draw_edge(picture, camera, corners[i], corners[i + 4], colour);
+    draw_edge(canvas, corners[i], corners[next], colour);
+    draw_edge(canvas, corners[i + 4], corners[next + 4], colour);
+    draw_edge(canvas, corners[i], corners[i + 4], colour);
   }
-  if (!is_in_sight(corners[7])) return;
-  cv::putText(*picture, object.label, to_point(camera.project(corners[7])) + cv::Point2d(0, -4),
-              cv::FONT_HERSHEY_SIMPLEX, 0.4, colour, 1, cv::LINE_AA);
 }
 
-/// Path seen from above in the upper right corner, forward is up.
-void draw_path(cv::Mat* picture, const std::vector<Eigen::Vector2d>& path_m) {
-  if (path_m.size() < 2) return;
-  constexpr int kSize = 150, kMargin = 10;
-  const cv::Rect box(picture->cols - kSize - kMargin, kMargin, kSize, kSize);
-  if (box.x < 0 || box.br().y > picture->rows) return;
-  (*picture)(box) *= 0.45;
+/// Labels the near objects first: where there is no room, it is the far ones that go without.
+void label_objects(const Canvas& canvas, const RoadPlane& plane, std::vector<ObjectFigure> objects,
+                   LabelPlacer* labels) {
+  std::sort(objects.begin(), objects.end(), [](const ObjectFigure& a, const ObjectFigure& b) {
+    return a.place_m.squaredNorm() < b.place_m.squaredNorm();
+  });
+  for (const ObjectFigure& object : objects) {
+    // The upper left corner in the picture, of those that are in sight.
+    std::optional<cv::Point2d> anchor;
+    for (const Eigen::Vector3d& corner : corners_of(object, plane)) {
+      if (!is_in_sight(corner)) continue;
+      const cv::Point2d px = to_point(canvas.camera.project(corner));
+      anchor = anchor ? cv::Point2d(std::min(anchor->x, px.x), std::min(anchor->y, px.y)) : px;
+    }
+    if (!anchor || object.label.empty()) continue;
+    labels->place(object.label, *anchor, object.measured ? kObjectColour : kPredictedColour);
+  }
+}
+
+/// Where the path is drawn, in the upper right corner.
+cv::Rect path_box(const cv::Mat& picture) {
+  const int size = std::min(picture.rows * 2 / 5, picture.cols / 5), margin = size / 16;
+  return {picture.cols - size - margin, margin, size, size};
+}
+
+/// Path seen from above, forward is up.
+void draw_path(const Canvas& canvas, const std::vector<Eigen::Vector2d>& path_m) {
+  cv::Mat* const picture = canvas.picture;
+  const cv::Rect box = path_box(*picture);
+  const int size = box.width, line_width = canvas.style.line_width;
+  (*picture)(box) *= 0.35;
   Eigen::Vector2d low = path_m.front(), high = path_m.front();
   for (const Eigen::Vector2d& p : path_m) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
   const double span_m = std::max({high.x() - low.x(), high.y() - low.y(), 1.0});
-  const double scale = (kSize - 20) / span_m;
+  const double scale = 0.85 * size / span_m;
   const Eigen::Vector2d middle = 0.5 * (low + high);
   const auto place = [&](const Eigen::Vector2d& p) {
-    return cv::Point2d(box.x + kSize / 2 + scale * (p.x() - middle.x()),
-                       box.y + kSize / 2 - scale * (p.y() - middle.y()));
+    return cv::Point2d(box.x + size / 2 + scale * (p.x() - middle.x()),
+                       box.y + size / 2 - scale * (p.y() - middle.y()));
   };
   for (std::size_t i = 1; i < path_m.size(); ++i) {
-    cv::line(*picture, place(path_m[i - 1]), place(path_m[i]), kPathColour, 1, cv::LINE_AA);
+    cv::line(*picture, place(path_m[i - 1]), place(path_m[i]), kPathColour, line_width,
+             cv::LINE_AA);
   }
-  cv::circle(*picture, place(path_m.back()), 3, kPathColour, cv::FILLED, cv::LINE_AA);
+  cv::circle(*picture, place(path_m.back()), 3 * line_width, kPathColour, cv::FILLED, cv::LINE_AA);
 }
 
 }  // namespace
@@ -152,20 +185,27 @@ double horizon_row_px(const CameraModel& camera, const RoadPlane& plane) {
 cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera, const FrameFigures& figures) {
   cv::Mat picture;
   cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
-  if (figures.plane) draw_road(&picture, camera, *figures.plane);
+  const LabelStyle style(picture.cols);
+  const Canvas canvas{&picture, camera, style};
+  LabelPlacer labels(&picture, style);
+  const bool has_path = figures.path_m.size() > 1;
+  if (has_path) labels.reserve(path_box(picture));
   if (figures.plane) {
-    for (const ObjectFigure& object : figures.objects)
-      draw_object(&picture, camera, *figures.plane, object);
+    draw_road(canvas, *figures.plane);
+    for (const ObjectFigure& object : figures.objects) draw_object(canvas, *figures.plane, object);
+    label_objects(canvas, *figures.plane, figures.objects, &labels);
+    label_road(canvas, *figures.plane, &labels);
   }
-  draw_path(&picture, figures.path_m);
-  int row = 22;
-  for (const std::string& line : figures.lines) {
-    cv::putText(picture, line, {12, row}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {0, 0, 0}, 3, cv::LINE_AA);
-    cv::putText(picture, line, {12, row}, cv::FONT_HERSHEY_SIMPLEX, 0.5, kTextColour, 1,
-                cv::LINE_AA);
-    row += 20;
-  }
-  return picture;
+  if (has_path) draw_path(canvas, figures.path_m);
+  std::vector<StripItem> words;
+  for (const std::string& line : figures.lines) words.push_back({line, false, {}});
+  return with_strip(picture, style,
+                    {words,
+                     {{"road grid", true, kRoadColour},
+                      {"horizon", true, kHorizonColour},
+                      {"object measured", true, kObjectColour},
+                      {"object predicted", true, kPredictedColour},
+                      {"path from above", true, kPathColour}}});
 }
 
 }  // namespace plumb

@@ -35,7 +35,8 @@ struct FrameFigures {
   std::vector<std::string> lines;       ///< text, top to bottom
 };
 
-/// Colour picture of `grey` with everything in `figures` drawn on it.
+/// Colour picture of `grey` with everything in `figures` drawn on it, and below it a strip with the
+/// text and a key of the colours.
 [[nodiscard]] cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera,
                                    const FrameFigures& figures);
 
