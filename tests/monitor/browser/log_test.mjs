@@ -27,10 +27,12 @@ test('every image has its results', async () => {
 
 test('it plays, and the time line, the keys and the charts seek', { timeout: 60000 }, async () => {
   await page.waitForFunction(() => window.plumb.player.playing || window.plumb.player.time_s > 1);
-  await page.evaluate(() => window.plumb.player.seek(5));
-  const seq = await page.evaluate(() => window.plumb.player.rows[window.plumb.player.index][1]);
-  await page.evaluate(() => { window.plumb.player.playing = false; });
-  await page.evaluate(() => window.plumb.player.seek(5));
+  const seq = await page.evaluate(() => {
+    const { player } = window.plumb;
+    player.playing = false;
+    player.seek(5);
+    return player.rows[player.index][1];
+  });
   await shown(seq);
   await page.keyboard.press('ArrowRight');
   await shown(seq + 1);
@@ -41,7 +43,8 @@ test('it plays, and the time line, the keys and the charts seek', { timeout: 600
   await page.waitForFunction(() => window.plumb.player.index === 0);
   const plot = await page.locator('.u-over').first().boundingBox();
   await page.mouse.click(plot.x + plot.width / 2, plot.y + plot.height / 2);
-  await page.waitForFunction(() => Math.abs(window.plumb.player.index - 50) < 5);
+  await page.waitForFunction(() => Math.abs(window.plumb.player.index - 50) < 5 && !window.plumb.player.busy
+    && window.plumb.player.shownIndex === window.plumb.player.index);
   const speed = await page.evaluate(() => document.getElementById('value-speed').textContent);
   assert.match(speed, /^\d+\.\d\d$/);
 });
