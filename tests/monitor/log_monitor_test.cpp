@@ -153,7 +153,7 @@ TEST_F(RecordedLog, StopsWhenAsked) {
 TEST(FrameStoreBounds, ReadsBackWhatWasAdded) {
   FrameStore store;
   for (int i = 0; i < 20; ++i)
-    store.add("{\"n\":" + std::to_string(i) + "}", Row(kRowNames.size(), i), {i * 10, i});
+    store.add("{\"n\":" + std::to_string(i) + "}", Row{static_cast<double>(i)}, {i * 10, i});
   std::string text;
   ImagePlace place;
   ASSERT_TRUE(store.read(13, &text, &place));

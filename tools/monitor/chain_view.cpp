@@ -194,6 +194,11 @@ void ChainView::take(const process_health_t& m, std::int64_t now_us) {
   if (place >= 0) health_[static_cast<std::size_t>(place)] = {m, now_us};
 }
 
+void ChainView::take(const ego_motion_t& m) {
+  if (!ego_ || ego_->session != m.session) ++num_runs_;
+  ego_ = m;
+}
+
 json ChainView::results(std::int64_t seq) const {
   json out = {{"seq", seq}};
   if (vo_ && vo_->seq == seq) out["vo"] = vo_json(*vo_);
@@ -255,6 +260,7 @@ Row ChainView::row(double time_s, std::int64_t seq) const {
           motion(ego.t_world_cam_m[0]),
           motion(ego.t_world_cam_m[2]),
           has_ego ? static_cast<double>(ego.reset_counter) : kNan,
+          static_cast<double>(num_runs_),
           has_vo ? static_cast<double>(vo_->status) : kNan,
           has_plane ? static_cast<double>(ground.status) : kNan,
           has_ego ? static_cast<double>(ego.status) : kNan};

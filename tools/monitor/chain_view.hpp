@@ -23,12 +23,13 @@
 
 namespace plumb {
 
-/// One point of every curve, in the order of kRowNames. NaN: not valid.
-using Row = std::vector<double>;
+/// The curves; `run` counts the starts of plumb-ground, each of which begins a new world.
 inline constexpr std::array kRowNames =
     std::to_array<const char*>({"time_s", "seq", "speed", "speed_std", "pitch", "pitch_std", "roll",
                                 "roll_std", "height", "height_std", "scale", "scale_std", "x", "z",
-                                "reset", "vo_status", "plane_status", "ego_status"});
+                                "reset", "run", "vo_status", "plane_status", "ego_status"});
+/// One point of every curve. NaN: not valid.
+using Row = std::array<double, kRowNames.size()>;
 
 /// Names of all status and reason numbers, for the page.
 [[nodiscard]] nlohmann::json status_words();
@@ -38,7 +39,7 @@ class ChainView {
   void take(const camera_calibration_t& m) { camera_ = m; }
   void take(const vo_motion_t& m) { vo_ = m; }
   void take(const ground_plane_t& m) { plane_ = m; }
-  void take(const ego_motion_t& m) { ego_ = m; }
+  void take(const ego_motion_t& m);
   void take(const objects_t& m) { objects_ = m; }
   void take(const detections_t& m) { detections_ = m; }
   void take(const mount_t& m) { mount_ = m; }
@@ -74,6 +75,7 @@ class ChainView {
   std::optional<detections_t> detections_;
   std::optional<mount_t> mount_;
   std::array<Health, kChainProcesses.size()> health_;
+  int num_runs_ = 0;  ///< sessions of plumb-ground that were seen
 };
 
 }  // namespace plumb

@@ -29,7 +29,7 @@ void FrameStore::add(const std::string& json, const Row& row, const ImagePlace& 
   const std::lock_guard lock(mutex_);
   entries_.push_back({file_bytes_, json.size(), image});
   file_bytes_ += static_cast<std::int64_t>(json.size());
-  rows_.insert(rows_.end(), row.begin(), row.end());
+  rows_.push_back(row);
 }
 
 std::int64_t FrameStore::size() const {
@@ -56,10 +56,7 @@ std::vector<Row> FrameStore::rows(std::int64_t first, std::size_t max_rows) cons
   const std::size_t begin =
       std::min(static_cast<std::size_t>(std::max<std::int64_t>(first, 0)), entries_.size());
   const std::size_t end = std::min(begin + max_rows, entries_.size());
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto at = rows_.begin() + static_cast<std::ptrdiff_t>(i * kRowNames.size());
-    list.emplace_back(at, at + static_cast<std::ptrdiff_t>(kRowNames.size()));
-  }
+  for (std::size_t i = begin; i < end; ++i) list.push_back(rows_[i]);
   return list;
 }
 

@@ -51,7 +51,7 @@ class FrameStore {
   std::unique_ptr<std::FILE, Close> file_;
   std::int64_t file_bytes_ = 0;
   std::vector<Entry> entries_;
-  std::vector<double> rows_;  ///< kRowNames.size() for each frame
+  std::vector<Row> rows_;
 };
 
 }  // namespace plumb

@@ -16,8 +16,8 @@ PLUMB_EMBED(plumb_page_style, "page.css");
 namespace plumb {
 
 std::vector<WebFile> page_files() {
-  if (plumb_page_html_begin == plumb_page_html_end) return {};
   const WebFile html{"/", "text/html; charset=utf-8", {plumb_page_html_begin, plumb_page_html_end}};
+  if (html.bytes.empty()) return {};
   return {html,
           {"/page.js",
            "text/javascript; charset=utf-8",

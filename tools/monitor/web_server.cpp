@@ -236,6 +236,7 @@ struct WebCallbacks {
   static int on_page_request(WebServer* server, Client* client, std::string_view text) {
     const PageRequest request = read_page_request(text);
     if (request.kind == PageRequest::Kind::kNone) return -1;
+    lws_validity_confirmed(client->socket);
     if (request.kind == PageRequest::Kind::kFrame) client->wanted = request.number;
     if (request.kind == PageRequest::Kind::kAcknowledge) {
       client->in_flight = std::max(client->in_flight - 1, 0);
@@ -280,7 +281,7 @@ constexpr std::array<lws_protocols, 3> kProtocols = {
     lws_protocols{"plumb-monitor", WebCallbacks::on_page, sizeof(PageSession), 1024, 0, nullptr, 0},
     lws_protocols{nullptr, nullptr, 0, 0, 0, nullptr, 0}};
 
-/// A page that says nothing for a minute, not even to a ping, is gone.
+/// A page that has said nothing for a minute, not even to a ping, is gone.
 constexpr std::uint16_t kPing_s = 20;
 constexpr std::uint16_t kHangUp_s = 60;
 

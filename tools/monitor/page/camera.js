@@ -108,13 +108,14 @@ function drawBoxes(context, boxes, unit) {
 function drawObjects(context, camera, plane, objects, words, unit, labels) {
   const placed = objects.list.filter((object) => object.status !== NOT_LOCALISED);
   placed.sort((a, b) => a.position[0] - b.position[0]);
-  for (const object of placed) {
+  const mostLabels = camera.width / unit < 520 ? 3 : placed.length;
+  for (const [nearness, object] of placed.entries()) {
     const corners = cuboid(plane, object).map((corner) => project(camera, corner));
     const dash = object.status === PREDICTED ? [5 * unit, 4 * unit] : [];
     for (const [from, to] of CUBOID_EDGES)
       stroke(context, [corners[from], corners[to]], COLOUR.objects, unit, dash);
     const top = corners.slice(4).filter(Boolean);
-    if (!top.length) continue;
+    if (!top.length || nearness >= mostLabels) continue;
     const x = Math.min(...top.map((corner) => corner[0]));
     const y = Math.min(...top.map((corner) => corner[1]));
     const range = Math.hypot(...object.position);

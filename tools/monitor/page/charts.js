@@ -3,6 +3,7 @@
 import uPlot from 'uplot';
 
 export const WINDOW_S = 60;
+const GAP_S = 1;
 const DEGREES = 180 / Math.PI;
 
 /** name, unit, columns of the row, factor of the shown value, digits, least height of the axis. */
@@ -36,6 +37,17 @@ function extent(lists) {
     }
   }
   return [low, high];
+}
+
+/** A row without values wherever rows are missing, so that no line leads across. */
+function withGaps(rows, run) {
+  const list = [];
+  for (const row of rows) {
+    const last = list.at(-1);
+    if (last && (row[0] - last[0] > GAP_S || row[run] !== last[run])) list.push([(row[0] + last[0]) / 2]);
+    list.push(row);
+  }
+  return list;
 }
 
 export class Chart {
@@ -103,12 +115,13 @@ export class Chart {
     ctx.restore();
   }
 
-  /** `rows` lie inside `window` = [from, to] in seconds. */
-  update(rows, columns, window, now) {
+  /** The rows `shown` lie inside `window` = [from, to] in seconds. */
+  update(shown, columns, window, now) {
     const { curve } = this;
+    const rows = withGaps(shown, columns.run);
     const value = columns[curve.id];
     const deviation = columns[`${curve.id}_std`];
-    const at = (row, sign) => (row[value] === null ? null
+    const at = (row, sign) => ((row[value] ?? null) === null ? null
       : curve.factor * (row[value] + sign * (row[deviation] ?? 0)));
     const low = rows.map((row) => at(row, -1));
     const high = rows.map((row) => at(row, 1));

@@ -2,6 +2,8 @@
 
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
+const LEAST_SPAN_M = 40;
+
 /** A round length for the scale bar, at most `limit`. */
 function roundLength(limit) {
   const power = 10 ** Math.floor(Math.log10(limit));
@@ -39,7 +41,9 @@ export class MapView {
     const { context } = this;
     const [width, height] = this.resize();
     context.clearRect(0, 0, width, height);
-    const path = rows.filter((row) => row[columns.x] !== null)
+    // A restarted chain begins a new world: only the way since then fits together.
+    const run = rows.at(-1)?.[columns.run];
+    const path = rows.filter((row) => row[columns.x] !== null && row[columns.run] === run)
       .map((row) => [row[columns.x], row[columns.z], row[columns.reset]]);
     if (path.length === 0) {
       context.fillStyle = css('--muted');
@@ -48,9 +52,8 @@ export class MapView {
       return;
     }
     const box = bounds(path);
-    const span = Math.max(box.right - box.left, (box.high - box.low) * (width / height), 20);
-    const scale = (width - 48) / Math.max(span, (box.right - box.left) || 1, 20);
-    const fit = Math.min(scale, (height - 48) / Math.max(box.high - box.low, 1));
+    const fit = Math.min((width - 48) / Math.max(box.right - box.left, LEAST_SPAN_M),
+      (height - 56) / Math.max(box.high - box.low, LEAST_SPAN_M));
     const middle = [(box.left + box.right) / 2, (box.low + box.high) / 2];
     const place = ([x, z]) => [width / 2 + fit * (x - middle[0]), height / 2 - fit * (z - middle[1])];
     this.drawPath(path, place);

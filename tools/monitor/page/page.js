@@ -55,7 +55,7 @@ function onHello(hello) {
   if (sameRun && page.history) page.history = page.player.history = new LiveHistory();
   const isLog = hello.mode === 'log';
   document.body.dataset.mode = hello.mode;
-  setText(byId('title'), hello.title);
+  setText(byId('title'), hello.title.replace(/\?.*/, ''));
   setText(byId('version'), hello.version);
   document.title = `${isLog ? hello.title : 'live'} · Plumbline`;
   if (!page.player) {

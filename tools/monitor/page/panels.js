@@ -103,15 +103,21 @@ export function showEstimators(frame, hello) {
 
 const angle = (values, i) => (!values || values[i] === null ? '–' : `${number(values[i] * DEGREES, 2)}°`);
 
+/** The angle of the reference, and what the newest stretches say. */
+function angles(mount, i) {
+  const now = angle(mount?.recent, i);
+  return mount && mount.reference[i] !== null ? `${angle(mount.reference, i)} · now ${now}` : now === '–' ? now : `now ${now}`;
+}
+
 export function showMount(frame, hello) {
   const { mount, camera } = frame;
   status('status-mount', 'mount', mount && { ...mount, reason: 0 }, hello.words.mount_status, hello.words.mount_reason);
   const now = mount?.reason ? words(hello.words.mount_reason[mount.reason]) : 'used';
   facts(byId('mount'), [
     ['Reference', mount ? `${(100 * mount.progress).toFixed(0)} % of the stretches` : '–'],
-    ['Pitch', `${angle(mount?.reference, 0)} · now ${angle(mount?.recent, 0)}`],
-    ['Roll', `${angle(mount?.reference, 1)} · now ${angle(mount?.recent, 1)}`],
-    ['Yaw', `${angle(mount?.reference, 2)} · now ${angle(mount?.recent, 2)}`],
+    ['Pitch', angles(mount, 0)],
+    ['Roll', angles(mount, 1)],
+    ['Yaw', angles(mount, 2)],
     ['This image', mount ? now : '–'],
     ['Calibration', camera ? `${camera.width} × ${camera.height} px` : 'not received'],
     ['Focal length', camera ? `${number(camera.fx, 1)}, ${number(camera.fy, 1)} px` : '–'],
