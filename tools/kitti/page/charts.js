@@ -74,7 +74,8 @@ const charts = JSON.parse(document.getElementById('charts').textContent);
 function draw(place) {
   if (place.firstChild) return;
   const chart = charts[Number(place.dataset.chart)];
-  const width = Math.max(320, place.clientWidth);
+  // Maps stand side by side and are as wide as their roads.
+  const width = Math.max(320, (chart.equal ? document.querySelector('main') : place).clientWidth);
   place.append(chart.type === 'bars' ? drawBars(chart, width) : drawLines(chart, width));
 }
 

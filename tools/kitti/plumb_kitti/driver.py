@@ -90,8 +90,9 @@ def show_progress(text, line_before):
 def run_workflow(out, options, lock_handle):
     """Runs Snakemake and keeps what it says in OUT/workflow.log. Returns its exit code."""
     # Unlike Snakemake's own lock, the driver's goes with the processes that hold it. Snakemake holds it too, so that
-    # nobody else begins while it outlives a driver that was killed.
-    words = ['snakemake', '--snakefile', SNAKEFILE, '--directory', out, '--nolock', '--keep-going', '--rerun-incomplete',
+    # nobody else begins while it outlives a driver that was killed. A job puts its output in place in one step, so one
+    # that is there is whole, whatever Snakemake noted of it before it was killed.
+    words = ['snakemake', '--snakefile', SNAKEFILE, '--directory', out, '--nolock', '--keep-going', '--ignore-incomplete',
              '--rerun-triggers', 'mtime', '--restart-times', '1']
     words += ['--profile', options.profile.resolve()] if options.profile else ['--cores', options.jobs]
     shown = ''

@@ -24,7 +24,9 @@ def bundle(job):
     for words in (['npm', 'ci', '--ignore-scripts', '--no-audit', '--no-fund'], ['npm', 'run', '--silent', 'bundle']):
         done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
         if done.returncode:
-            raise UsageError(f"{' '.join(words)} failed: {(done.stderr or done.stdout).strip().splitlines()[-1]}")
+            said = (done.stderr or done.stdout).strip().splitlines()
+            raise UsageError(f"{' '.join(words)} failed: {said[-1] if said else done.returncode}")
+    (folder / 'bundle.part.js').replace(target)
 
 
 def table_html(block):
@@ -51,7 +53,8 @@ def block_html(block, key):
     if block['type'] == 'note':
         return f"<p>{html.escape(block['text'])}</p>"
     under = f'<details><summary>Values</summary>{bars_table(block)}</details>' if block['type'] == 'bars' else ''
-    return (f'<figure><div class="chart" data-chart="{key}"></div>'
+    kind = ' class="map"' if block.get('equal') else ''
+    return (f'<figure{kind}><div class="chart" data-chart="{key}"></div>'
             f"<figcaption>{html.escape(block['caption'])}</figcaption>{under}</figure>")
 
 
