@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/run_program.hpp"
 
@@ -33,6 +35,33 @@ TEST(KittiPrograms, FitNothingToAScanWithoutARoad) {
                                   folder.path().string() + " --out " + (folder / "p.txt").string());
   EXPECT_EQ(result.exit_code, 2);
   expect_contains(result.err, "shows a road");
+}
+
+TEST(KittiPrograms, SayWhichOfTwoErrorsIsSmaller) {
+  const test::TempFolder folder;
+  std::string poses, rows =
+                         "seq,vo_status,scale_epoch,vo_t_x,vo_t_y,vo_t_z,plane_status,log_scale,"
+                         "dense_status,dense_height_vo,points_status,points_height_vo\n";
+  for (int k = 0; k < 40; ++k) {
+    poses += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(k) + "\n";
+    rows += std::to_string(k) + ",ok,0,0,0,0.5,ok,0.673344553,used,0.84,failed,\n";
+  }
+  folder.write("poses.txt", poses);
+  folder.write("04.csv", rows);
+  const std::string at = folder.path().string() + "/";
+  const auto height = run_program(folder, "plumb-eval",
+                                  "height " + at + "poses.txt " + at + "04.csv --samples " + at +
+                                      "s.csv --json " + at + "h.json");
+  ASSERT_EQ(height.exit_code, 0) << height.err;
+  expect_contains(height.out, "fused        40 frames  mean   2.000 %");
+  const std::string files = "compare " + at + "s.csv " + at + "s.csv ";
+  const auto compare = run_program(folder, "plumb-eval", files + "--of fused --against constant");
+  ASSERT_EQ(compare.exit_code, 0) << compare.err;
+  expect_contains(compare.out, "40 pairs in 2 blocks");
+  expect_contains(compare.out, "difference    2.0000      2.0000 ..    2.0000");
+  expect_contains(run_program(folder, "plumb-eval", files + "--of fused").err, "go together");
+  expect_contains(run_program(folder, "plumb-eval", files + "--of fused --against nothing").err,
+                  "no sample in common");
 }
 
 }  // namespace
