@@ -1,0 +1,246 @@
+"""Tests tools/kitti/plumb-kitti: what it finds, what it names as missing, how it stages, plans and shows."""
+import dataclasses
+import json
+import sys
+import types
+import unittest
+
+import support
+
+sys.path.insert(0, str(support.ROOT / 'tools/kitti'))
+from plumb_kitti import blocks, discover, driver, missing, page, plan, sections, staging
+from plumb_kitti.results import Results
+from plumb_tools.command_line import UsageError
+
+PNG = b'\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR' + (1242).to_bytes(4, 'big') + (375).to_bytes(4, 'big')
+P = '700 0 600 0 0 700 180 0 0 0 1 0'
+TRACKING_CALIB = f'P0: {P}\nP1: {P}\nP2: {P}\nP3: {P}\nR_rect 1 0 0 0 1 0 0 0 1\n' \
+                 'Tr_velo_cam 0 -1 0 1 0 0 -1 2 1 0 0 3\nTr_imu_velo 1 0 0 4 0 1 0 5 0 0 1 6\n'
+
+
+class KittiTree(support.FolderTest):
+    """A tree with pieces of all three data sets, at the places where the downloads put them."""
+
+    def images(self, folder, names=('000000', '000001')):
+        for name in names:
+            path = self.folder / folder / f'{name}.png'
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(PNG)
+
+    def setUp(self):
+        super().setUp()
+        self.images('kitti/dataset/sequences/04/image_0')
+        self.write('kitti/dataset/sequences/04/calib.txt', f'P0: {P}\nTr: {P}\ncamera_height_m: 1.7\n')
+        self.write('kitti/dataset/sequences/04/times.txt', '0\n0.1\n')
+        self.write('kitti/dataset/poses/04.txt', '1 0 0 0 0 1 0 0 0 0 1 0\n' * 2)
+        self.write('kitti/dataset/sequences/04/velodyne/000000.bin', '')
+        self.images('kitti/dataset/sequences/13/image_2')
+        self.images('kitti/tracking/training/image_02/0003')
+        self.write('kitti/tracking/training/calib/0003.txt', TRACKING_CALIB)
+        self.write('kitti/tracking/training/label_02/0003.txt', '0 1 Car 0 0 0 1 1 2 2 1 1 1 1 1 9 0\n')
+        self.write('kitti/tracking/training/oxts/0003.txt', '1 2 3\n4 5 6\n')
+        self.images('kitti/raw/2011_09_26/2011_09_26_drive_0009_sync/image_00/data', ('0000000000', '0000000001'))
+        self.write('kitti/raw/2011_09_26/2011_09_26_drive_0009_sync/image_00/timestamps.txt', 'x\ny\n')
+        self.write('kitti/raw/2011_09_26/calib_cam_to_cam.txt', f'P_rect_00: {P}\n')
+        self.write('kitti/raw/2011_09_26/2011_09_26_drive_0009_sync/oxts/data/0000000000.txt', '1\n')
+        self.drives = {drive.name: drive for drive in self.find()[0]}
+
+    def find(self):
+        return discover.find(self.folder / 'kitti')
+
+    def plain(self, name):
+        return dataclasses.asdict(self.drives[name])
+
+
+class Discovery(KittiTree):
+    def test_finds_all_three_sets(self):
+        self.assertEqual({name: drive.kind for name, drive in self.drives.items()},
+                         {'04': 'odometry', '13': 'odometry', 'tracking_0003': 'tracking',
+                          '2011_09_26_drive_0009': 'raw'})
+        four, raw = self.drives['04'], self.drives['2011_09_26_drive_0009']
+        self.assertTrue(four.poses.endswith('dataset/poses/04.txt') and four.velodyne and not four.lacks)
+        self.assertTrue(raw.oxts and raw.calib.endswith('2011_09_26/calib_cam_to_cam.txt'))
+        self.assertEqual(self.find()[1], [self.folder / 'kitti/tracking/training'])
+        self.assertTrue(self.drives['13'].for_server and not self.drives['13'].has_truth)
+        self.assertEqual(self.drives['13'].camera, 2)
+
+    def test_names_the_download_of_what_a_drive_lacks(self):
+        self.assertEqual(self.drives['13'].lacks, ['calib (data_odometry_calib.zip)', 'times (data_odometry_calib.zip)'])
+        rows = missing.rows_of([dataclasses.asdict(d) for d in self.drives.values()], ['x'], {})
+        text = '\n'.join(' | '.join(row.values()) for row in rows)
+        self.assertIn('images of sequences 00, 01, 02, 03, 05, 06, 07, 08, 09, 10 | data_odometry_gray.zip', text)
+        self.assertIn('13 | calib | data_odometry_calib.zip', text)
+        self.assertIn('2011_10_03_drive_0047_tracklets.zip', text)
+        self.assertNotIn('labels of the tracking sequences', text)
+
+    def test_refuses_what_is_no_kitti(self):
+        self.write('other/readme.txt', '')
+        with self.assertRaisesRegex(UsageError, 'holds no KITTI data'):
+            discover.find(self.folder / 'other')
+        self.images('kitti/again/sequences/04/image_0')
+        with self.assertRaisesRegex(UsageError, 'two drives are named 04'):
+            self.find()
+
+    def test_dry_run_prints_all_of_it(self):
+        code, out, err = self.run_script('kitti/plumb-kitti', self.folder / 'kitti', '--dry')
+        self.assertEqual((code, err), (0, ''))
+        self.assertRegex(out, r'tracking_0003 +tracking +2 images  truth, labels')
+        self.assertIn('missing for Fig. 12', out)
+
+    def test_refuses_wrong_options(self):
+        tree = self.folder / 'kitti'
+        self.assert_refused('kitti/plumb-kitti', [tree, '--drives', '4'], 'no drive 4; did you mean 04?')
+        self.assert_refused('kitti/plumb-kitti', [tree, '--modes', 'papr'], 'did you mean paper?')
+        self.assert_refused('kitti/plumb-kitti', [tree, '--others', 'ORB'], 'ORB is not NAME=FOLDER')
+        self.assert_refused('kitti/plumb-kitti', [tree, '--trial', '2'], 'did you mean --trials?')
+
+
+class Staging(KittiTree):
+    def test_a_tracking_sequence_becomes_a_raw_drive(self):
+        staging.stage(self.plain('tracking_0003'), self.folder / 'staged')
+        cam = (self.folder / 'staged/calib_cam_to_cam.txt').read_text()
+        self.assertIn('S_rect_02: 1242 375', cam)
+        self.assertIn(f'P_rect_02: {P}', cam)
+        self.assertIn('R_rect_00: 1 0 0 0 1 0 0 0 1', cam)
+        self.assertEqual((self.folder / 'staged/calib_velo_to_cam.txt').read_text(), 'R: 0 -1 0 0 0 -1 1 0 0\nT: 1 2 3\n')
+        self.assertEqual((self.folder / 'staged/oxts/data/0000000001.txt').read_text(), '4 5 6\n')
+        stamps = (self.folder / 'staged/image_02/timestamps.txt').read_text().splitlines()
+        self.assertEqual(stamps[1], '2012-01-01 00:00:00.100000000')
+        self.assertTrue((self.folder / 'staged/image_02/data/000001.png').exists())
+
+    def test_labels_come_only_when_asked_for(self):
+        drive = self.plain('tracking_0003')
+        staging.stage(drive, self.folder / 'staged')
+        self.assertFalse((self.folder / 'staged/label_02.txt').exists())
+        staging.stage(drive, self.folder / 'staged', with_labels=True)
+        self.assertTrue((self.folder / 'staged/label_02.txt').exists())
+
+
+class Plan(KittiTree):
+    def make(self, trials):
+        options = types.SimpleNamespace(trials=trials, modes=['paper', 'default'], bin=self.folder)
+        usable = [self.plain(name) for name, drive in self.drives.items() if not drive.lacks]
+        return plan.make(usable, [], options, {}, {})
+
+    def test_takes_the_camera_from_each_calibration(self):
+        drives = self.make(0)['drives']
+        self.assertEqual(drives['04']['camera_facts']['height_m'], 1.7)
+        self.assertEqual(drives['tracking_0003']['camera_facts']['height_m'], 1.65)
+        self.assertNotEqual(drives['04']['rig'], drives['tracking_0003']['rig'])
+
+    def test_trials_differ_and_are_the_same_again(self):
+        trials = self.make(4)['trials']['04']
+        self.assertEqual(trials[0], {'skip': 0, 'noise': 0.0, 'drop': 0.0, 'seed': 1})
+        self.assertEqual(len({json.dumps(trial) for trial in trials}), 5)
+        self.assertEqual(trials, self.make(4)['trials']['04'])
+        self.assertEqual(trials, self.make(9)['trials']['04'][:5])
+
+    def test_the_file_stays_untouched_when_nothing_changed(self):
+        path = self.folder / 'plan.json'
+        plan.write(self.make(2), path)
+        before = path.stat().st_mtime_ns
+        plan.write(self.make(2), path)
+        self.assertEqual(path.stat().st_mtime_ns, before)
+
+
+class Failures(support.FolderTest):
+    LOG = ('job: plumb-replay failed with 2: no such log\nError in rule run:\n    jobid: 1\n    output: runs/04/result.json\n'
+           'job: late\nError in rule log:\n    output: logs/05.lcm\n')
+
+    def test_names_jobs_that_left_nothing(self):
+        self.write('workflow.log', self.LOG)
+        self.write('logs/05.lcm', 'made by the second attempt')
+        self.assertEqual(driver.failed_jobs(self.folder),
+                         {'runs/04/result.json': 'plumb-replay failed with 2: no such log'})
+
+    def test_one_folder_has_one_master(self):
+        with driver.lock(self.folder):
+            with self.assertRaisesRegex(UsageError, 'in use by another plumb-kitti'):
+                driver.lock(self.folder)
+
+
+class Page(support.FolderTest):
+    def html(self, blocks_, script='draw()'):
+        self.write('page/bundle.js', script)
+        data = {'title': 'T', 'headline': [], 'sections': [sections.section('a', 'A <b>', blocks_, 'p')]}
+        return page.html_of(data, self.folder / 'page')
+
+    def test_is_one_file_and_escapes(self):
+        chart = blocks.lines('c', 'x', 'y', [blocks.curve('</script>', [(0, 1), (1, float('nan'))])])
+        text = self.html([chart, blocks.table(['h'], [['<i>']])])
+        self.assertIn('A &lt;b&gt;', text)
+        self.assertIn('<td>&lt;i&gt;</td>', text)
+        self.assertEqual(text.count('</script>'), 2)
+        self.assertIn('[1.0,null]', text)
+        self.assertNotRegex(text, r'(src|href)="(https?:|/)')
+
+    def test_an_empty_section_says_that_its_data_is_missing(self):
+        self.assertIn('Data not here', self.html([blocks.note('why')]))
+        self.assertNotIn('Data not here', self.html([blocks.table(['h'], [['1']])]))
+
+    def test_without_npm_it_says_that_it_has_no_charts(self):
+        self.assertIn('npm was not here', self.html([blocks.bars('c', 'y', [('04', 'default', 1.5)])], script=''))
+        self.assertIn('<td>1.50</td>', self.html([blocks.bars('c', 'y', [('04', 'default', 1.5)])], script=''))
+
+    def test_curves_are_thinned_to_what_a_screen_shows(self):
+        curve = blocks.curve('default', [(k, k) for k in range(10001)])
+        self.assertLessEqual(len(curve['x']), blocks.MOST_POINTS + 1)
+        self.assertEqual((curve['x'][0], curve['x'][-1]), (0, 10000))
+
+
+class Sections(support.FolderTest):
+    """Two measured drives, as the jobs leave them."""
+
+    def setUp(self):
+        super().setUp()
+        drives = {name: {'name': name, 'kind': 'odometry', 'number': name, 'num_images': 50, 'poses': 'p', 'oxts': '',
+                         'planes': '', 'velodyne': '', 'rig': 'r', 'camera_facts': {'fx_px': 1.0, 'height_m': 1.65}}
+                  for name in ('04', '05')}
+        self.plan = {'drives': drives, 'modes': ['default', 'paper', 'paper-fixed'], 'boxes': {}, 'others': {}, 'planes': [],
+                     'trials': {'04': [{}, {}], '05': [{}, {}]}, 'missing': []}
+        for k, name in enumerate(drives):
+            for mode in self.plan['modes']:
+                for trial in range(2):
+                    self.write_run(name, mode, trial, t=1.0 + trial, num=1 + 2 * k)
+
+    def write_run(self, name, mode, trial, t, num):
+        errors = {'num_segments': num, 't_percent': t + num, 'r_deg_m': 0.01, 'by_speed': [],
+                  'by_length': [{'length_m': 10.0, 'num_segments': num, 't_percent': t, 'r_deg_m': 0.01}]}
+        height = {kind: {'num_frames': 10 * num, 'mean_percent': float(num), 'bias_percent': 0.0,
+                         'within_7_percent_ratio': 1.0} for kind in ('fused', 'dense', 'points', 'constant')}
+        folder = f'runs/{name}/{mode}/{trial}'
+        self.write(f'{folder}/result.json', json.dumps({
+            'num_frames': 50, 'ego_status': {'ok': 50}, 'path_m': 60.0, 'short': errors,
+            'long': {**errors, 'num_segments': 0, 'by_length': []}, 'height': height}))
+        self.write(f'{folder}/height.json', json.dumps({k: {'frames': [1, 2], 'errors_percent': [1.0, -1.0]} for k in height}))
+        for file in ('truth.txt', 'poses.txt'):
+            self.write(f'{folder}/{file}', '1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n')
+
+    def cells(self, section):
+        return [row for block in section['blocks'] if block['type'] == 'table' for row in block['rows']]
+
+    def test_table_1_has_mean_and_variance_over_trials_and_pools_by_segments(self):
+        rows = self.cells(sections.table_1(Results(self.folder, self.plan)))
+        self.assertIn(['04', 'default', '10, 20, 50 m', '2', '2.500', '0.5', '0.01000', '0'], rows)
+        self.assertIn(['all, pooled', 'default', '10, 20, 50 m', 'undisturbed', '3.500', '', '0.01000', ''], rows)
+
+    def test_figure_10_pools_by_images_and_gives_the_constant_no_credit_without_planes(self):
+        rows = {row[0]: row for row in self.cells(sections.figure_10(Results(self.folder, self.plan)))}
+        self.assertEqual(rows['adaptive'], ['adaptive', '2.50', '100.0', '-', '-', '3.97'])
+        self.assertEqual(rows['constant'][1:5], ['-', '-', '-', '-'])
+
+    def test_every_figure_is_there(self):
+        results = Results(self.folder, self.plan)
+        for make in (sections.figure_1, sections.figure_9, sections.figure_10, sections.figure_11):
+            self.assertTrue(any(b['type'] in ('lines', 'bars') for b in make(results)['blocks']), make.__name__)
+
+    def test_a_comparison_of_few_images_tells_nothing(self):
+        entry = {'num_blocks': 3, 'difference': {'mean': -1.0, 'low': -2.0, 'high': -0.5}}
+        self.assertEqual(sections.verdict(entry), 'too few images to tell')
+        self.assertEqual(sections.verdict({**entry, 'num_blocks': 30}), 'the first is better')
+        entry['difference']['high'] = 0.5
+        self.assertEqual(sections.verdict({**entry, 'num_blocks': 30}), 'not told apart')
+
+
+if __name__ == '__main__':
+    unittest.main()
