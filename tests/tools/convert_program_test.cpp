@@ -210,7 +210,7 @@ TEST_F(ConvertProgram, ExitsWithTwoAndOneSentenceOnBadInput) {
       {path("images") + out + "--times " + path("none.txt"), "none.txt"},
       {path("none") + out, "cannot read " + path("none")},
       {path("text.mp4") + out, "is not a readable video"},
-      {write_video(2) + out + "--rate 10", "a video has times of its own"},
+      {write_video(2) + out + "--rate 10", "a file has times of its own"},
       {path("deep") + out, "1.png has 16 bits per channel"},
       {path("large") + out + "--rate 1", "more pixels than 1920 x 1200"},
       {folder + "--camera " + path("none.toml"), "cannot read"},
