@@ -113,6 +113,7 @@ class Staging(KittiTree):
         staging.stage(drive, self.folder / 'staged')
         self.assertFalse((self.folder / 'staged/label_02.txt').exists())
         staging.stage(drive, self.folder / 'staged', with_labels=True)
+        self.assertIn(f'P2: {P}', (self.folder / 'staged/calib.txt').read_text())
         self.assertTrue((self.folder / 'staged/label_02.txt').exists())
 
 

@@ -157,17 +157,18 @@ def placed(job, name, boxes, plane):
     staging.stage(drive, staged, with_labels=True)
     config = job.settings(name, plans.PLANES[plane], plans.is_paper(plane), folder / 'settings.toml')
     files = [folder / 'frames.csv', folder / 'objects.csv']
-    job.programs.run('plumb-kitti2lcm', staged, '--camera', drive['camera'], '--detections', staged / f'{boxes}.txt',
-                     '--out', folder / 'boxes.lcm')
-    job.programs.run('plumb-replay', folder / 'boxes.lcm', '--config', config, '--csv', files[0], '--objects', files[1],
-                     '--no-times', log=folder / 'replay.txt')
-    (folder / 'boxes.lcm').unlink()
-    report = folder / 'placed.json'
-    if job.programs.succeeds('plumb-eval', 'placed', staged, *files, '--config', config, '--boxes', f'{boxes}.txt',
-                             '--json', report):
-        write_json(folder / 'result.json', json.loads(report.read_text())['all'])
-    else:
-        write_json(folder / 'result.json', {})
+    try:
+        job.programs.run('plumb-kitti2lcm', staged, '--camera', drive['camera'], '--detections',
+                         staged / f'{boxes}.txt', '--out', folder / 'boxes.lcm')
+        job.programs.run('plumb-replay', folder / 'boxes.lcm', '--config', config, '--csv', files[0], '--objects',
+                         files[1], '--no-times', log=folder / 'replay.txt')
+        job.programs.run('plumb-eval', 'placed', staged, *files, '--config', config, '--boxes', f'{boxes}.txt', '--json',
+                         folder / 'placed.json')
+        result = json.loads((folder / 'placed.json').read_text())['all']
+    except UsageError as error:  # such as boxes in another format; trying again does not help, so the page says it
+        result = {'refused': str(error).replace(f'{staged}/', '').replace(f'{folder}/', '')}
+    (folder / 'boxes.lcm').unlink(missing_ok=True)
+    write_json(folder / 'result.json', result)
 
 
 def objects(job, number, boxes):

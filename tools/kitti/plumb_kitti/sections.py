@@ -226,6 +226,9 @@ def placed_table(results):
                 if not entry:
                     continue
                 name = MODE_NAMES.get(plane, plane)
+                if 'refused' in entry:
+                    rows.append([drive, boxes, name, entry['refused']])
+                    continue
                 cells = []
                 for reach in ('close', 'distant'):
                     f = entry[reach]['all']

@@ -92,6 +92,13 @@ def stage_tracking(drive, folder):
             (data / f'{k:010d}.txt').write_text(line + '\n')
 
 
+def write_projections(folder):
+    """The calib.txt of the odometry set, which plumb-eval placed reads, out of a raw drive's file."""
+    values = read_tracking_calibration(folder / RAW_CALIBRATION[0])
+    lines = [f"P{k}: {' '.join(values[f'P_rect_0{k}'])}\n" for k in range(4) if f'P_rect_0{k}' in values]
+    (folder / 'calib.txt').write_text(''.join(lines))
+
+
 STAGERS = {'odometry': stage_odometry, 'raw': stage_raw, 'tracking': stage_tracking}
 
 
@@ -101,6 +108,8 @@ def stage(drive, folder, with_labels=False):
     folder.mkdir(parents=True)
     STAGERS[drive['kind']](drive, folder)
     if with_labels:
+        if not (folder / 'calib.txt').exists():
+            write_projections(folder)
         link(drive['labels'], folder / 'label_02.txt')
         for name, path in drive['boxes'].items():
             link(path, folder / f'{name}.txt')
