@@ -92,17 +92,19 @@ class RecordPlayTest(unittest.TestCase):
         self.assertIn('100 images, 0 lost', self.said('record'))
         chain = [self.start(name, BIN / f'plumb-{name}', *options) for name, options in [
             ('can', ['--trace', self.folder / 'live.can']), ('objects', []), ('ground', []), ('vo', [])]]
-        self.play(self.folder / 'drive.lcm', '--wait', 'vo,ground,objects,can')
+        # A recording has the times of arrival, so this one plays at the camera's pace at a sixth of its speed.
+        self.play(self.folder / 'drive.lcm', '--wait', 'vo,ground,objects,can', '--speed', '0.167')
         time.sleep(1.5)
         for process in chain:
             process.terminate()
         self.assertEqual([process.wait(20) for process in chain], [0, 0, 0, 0])
-        if any(' late 0, skipped 0,' not in self.said(name) for name in ('vo', 'ground', 'objects', 'can')):
-            self.skipTest('this machine is too busy for real time: results came late')
-        self.assertIn('published 100,', self.said('vo'))
         compared = subprocess.run([ROOT / 'tools/dev/compare_can', self.folder / 'live.can',
                                    self.replay(self.folder / 'drive.lcm')], capture_output=True, text=True)
+        names = ('vo', 'ground', 'objects', 'can')
+        if compared.returncode != 0 and any('late 0, skipped 0, unpaired 0' not in self.said(name) for name in names):
+            self.skipTest('this machine is too busy for real time: ' + ' '.join(self.said(name) for name in names))
         self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
+        self.assertIn('published 100,', self.said('vo'))
 
     def test_play_sends_only_inputs_unless_told_otherwise(self):
         recorder = self.record('--duration', '60')
