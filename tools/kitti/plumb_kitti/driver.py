@@ -5,7 +5,6 @@ import os
 import pathlib
 import re
 import shutil
-import signal
 import subprocess
 import sys
 
@@ -99,7 +98,6 @@ def run_workflow(out, options, lock_handle):
     with open(out / 'workflow.log', 'w') as log, subprocess.Popen(
             [str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
             pass_fds=[lock_handle.fileno()]) as process:
-        signal.signal(signal.SIGTERM, lambda *_: process.terminate())
         for line in process.stdout:
             log.write(line)
             log.flush()
@@ -159,6 +157,7 @@ def main():
         trackers = {str(k): trackers_of(folder, options.boxes) for k, folder in enumerate(label_folders)}
         made = plan.make(usable, [str(folder) for folder in label_folders], options, trackers, others)
         plan.write({**made, 'missing': rows}, out / 'plan.json')
+        (out / 'report.json').unlink(missing_ok=True)  # so that results that were deleted are made again
         code = run_workflow(out, options, lock_handle)
         failed = failed_jobs(out) if code else {}
         if code:
