@@ -388,8 +388,7 @@ ScaleEstimate GroundEstimator::Impl::scale(const VoOutput& vo, const FramePrior&
   scale.log_scale = std::log(camera_height.height_m) - filter.state()(2);
   // A single height may be wrong by more than its own image can tell.
   const double doubt = config.filter.start_doubt_std / std::max(1, trial.num_used);
-  const double gap = motion_gap_excess();
-  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt + gap * gap;
+  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt + square(motion_gap_excess());
   const bool confirmed = !trial.open || trial.num_used >= config.filter.start_confirmations;
   scale.known = unit_proven && confirmed && scale.var <= square(config.ego.most_log_scale_std);
   if (prior.ln_height_var > 0.0) {
