@@ -15,7 +15,7 @@ namespace plumb {
 namespace {
 
 /// A vehicle states its speed 10 to 100 times a second.
-constexpr std::int64_t kReadPeriod_us = 2'000;
+constexpr std::int64_t kReadPeriod_us = 5'000;
 
 class VehicleProcess {
  public:
