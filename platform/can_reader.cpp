@@ -45,7 +45,12 @@ void CanReader::service(std::int64_t now_us) {
 bool CanReader::read(CanFrame* frame) {
   if (fd_ < 0) return false;
   canfd_frame in{};
-  const ssize_t n = ::recv(fd_, &in, sizeof in, MSG_DONTWAIT);
+  ssize_t n = 0;
+  // An error frame carries bits of its own where an identifier stands, and a request carries no
+  // data.
+  do {
+    n = ::recv(fd_, &in, sizeof in, MSG_DONTWAIT);
+  } while (n >= static_cast<ssize_t>(CAN_MTU) && (in.can_id & (CAN_ERR_FLAG | CAN_RTR_FLAG)) != 0);
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return false;
   if (n < static_cast<ssize_t>(CAN_MTU)) {
     go_down(n < 0 ? errno : ENETDOWN);

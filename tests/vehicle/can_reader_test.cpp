@@ -65,6 +65,21 @@ TEST_F(CanReaderTest, ReadsClassicAndFdFrames) {
   EXPECT_FALSE(reader_.read(&frame));
 }
 
+TEST_F(CanReaderTest, PassesOverErrorFramesAndRequests) {
+  reader_.service(0);
+  can_frame frame{};
+  frame.can_dlc = 8;
+  for (const canid_t flags : {CAN_ERR_FLAG, CAN_RTR_FLAG, canid_t{0}}) {
+    frame.can_id = 0x123 | flags;
+    frame.data[0] = flags == 0 ? 0xAB : 0xEE;
+    ASSERT_EQ(::send(g_far_end, &frame, sizeof frame, 0), static_cast<ssize_t>(CAN_MTU));
+  }
+  CanFrame got;
+  ASSERT_TRUE(reader_.read(&got));
+  EXPECT_EQ(got.data[0], 0xAB) << "the bits of an error are no speed";
+  EXPECT_FALSE(reader_.read(&got));
+}
+
 TEST_F(CanReaderTest, TriesAnInterfaceThatIsDownAgainEverySecond) {
   CanFrame frame;
   reader_.service(0);
