@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/percentile.hpp"
+#include "modules/ground/cues/robust_mean.hpp"
 
 namespace plumb {
 namespace {
@@ -12,13 +12,12 @@ constexpr double kLeastVehicleSpeed_m_s = 4.0;
 // The body pitches and the camera moves aside when the car turns or brakes.
 constexpr double kMostTurn_rad_s = 0.05;
 constexpr double kMostAccel_m_s2 = 1.5;
-// A stretch this many standard deviations off the median is left out.
-constexpr double kMostStds = 3.0;
-constexpr double kMadToStd = 1.4826;
 // Two heights that differ by more standard deviations contradict each other.
 constexpr double kContradictionStds = 3.0;
 // The height in use follows the one that is known at this rate, so that no speed jumps.
 constexpr double kMostRate_hz = 0.02;
+
+static_assert(HeightLearner::kMostStretches <= kMaxVotes);
 
 /// A step that tells the height: measured, straight and steady.
 bool is_usable(const EgoOutput& ego) {
@@ -86,55 +85,47 @@ void HeightLearner::take_effect(std::int64_t now_us) {
   if (changed && num_stretches_ >= kLeastStretches) estimate();
 }
 
-/// Mean of the stretches that agree with the median. Its variance is the larger one of what the
-/// stretches state and what they show, and what all stretches share.
+/// Robust mean of the stretches. Its variance is the larger one of what the stretches state and
+/// what they show, and what all stretches share.
 void HeightLearner::estimate() {
   const std::size_t count = std::min(num_stretches_, kMostStretches);
-  std::array<double, kMostStretches> sorted{};
-  for (std::size_t i = 0; i < count; ++i) sorted[i] = stretches_[i].ln_height;
-  const double median = percentile({sorted.data(), count}, 0.5);
-  for (std::size_t i = 0; i < count; ++i) sorted[i] = std::abs(stretches_[i].ln_height - median);
-  const double spread = kMadToStd * percentile({sorted.data(), count}, 0.5);
+  Votes votes;
+  for (std::size_t i = 0; i < count; ++i)
+    (void)votes.push_back({stretches_[i].ln_height, std::sqrt(stretches_[i].var), 0.0});
+  ln_height_ = robust_mean(&votes);
   double weight = 0.0;
-  double mean = 0.0;
+  double information = 0.0;
   double scatter = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double off = stretches_[i].ln_height - median;
-    if (std::abs(off) > kMostStds * std::max(spread, std::sqrt(stretches_[i].var))) continue;
-    const double w = 1.0 / stretches_[i].var;
-    weight += w;
-    mean += w * off;
-    scatter += w * off * off;
+  for (const Vote& vote : votes) {
+    weight += vote.weight;
+    information += vote.weight / square(vote.std);
+    scatter += vote.weight * square(vote.value - ln_height_);
   }
-  mean /= weight;
-  const double scatter_var = std::max(0.0, scatter / weight - mean * mean);
-  const double n = static_cast<double>(count);
-  ln_height_ = median + mean;
-  var_ = std::max(1.0 / weight, scatter_var / n) + square(config_.height_bias_std) +
+  var_ = std::max(1.0 / information, scatter / square(weight)) + square(config_.height_bias_std) +
          square(track_.newest().scale_std);
 }
 
 /// Joins the stated height and the learned one.
 void HeightLearner::combine(const CameraHeight& stated, double dt_s) {
   report_.num_stretches = static_cast<int>(std::min(num_stretches_, kMostStretches));
+  if (std::isnan(ln_height_)) {
+    report_.status = num_stretches_ > 0 ? HeightStatus::kLearning : HeightStatus::kStated;
+    report_.used = stated;
+    return;
+  }
+  report_.by_vehicle = height_of(ln_height_, var_);
   double ln_target = std::log(stated.height_m);
   double target_var = stated.var_ratio();
-  report_.status =
-      way_m_ > 0.0 || num_stretches_ > 0 ? HeightStatus::kLearning : HeightStatus::kStated;
-  if (!std::isnan(ln_height_)) {
-    report_.by_vehicle = height_of(ln_height_, var_);
-    const double gap = ln_height_ - ln_target;
-    const double sum_var = target_var + var_;
-    const bool contradicts = square(gap) > square(kContradictionStds) * sum_var;
-    report_.status = contradicts ? HeightStatus::kContradicted : HeightStatus::kLearned;
-    ln_target += target_var / sum_var * gap;
-    target_var *= var_ / sum_var;
-    // One of the two is wrong, and this class cannot know which.
-    if (contradicts) target_var += 0.25 * square(gap);
-  }
-  const double ln_before =
-      std::isnan(report_.used.height_m) ? ln_target : std::log(report_.used.height_m);
+  const double gap = ln_height_ - ln_target;
+  const double sum_var = target_var + var_;
+  const bool contradicts = square(gap) > square(kContradictionStds) * sum_var;
+  report_.status = contradicts ? HeightStatus::kContradicted : HeightStatus::kLearned;
+  ln_target += target_var / sum_var * gap;
+  target_var *= var_ / sum_var;
+  // One of the two is wrong, and this class cannot know which.
+  if (contradicts) target_var += 0.25 * square(gap);
   const double most = kMostRate_hz * dt_s;
+  const double ln_before = std::log(report_.used.height_m);
   const double ln_used = ln_before + std::clamp(ln_target - ln_before, -most, most);
   report_.used = height_of(ln_used, target_var + square(ln_target - ln_used));
 }

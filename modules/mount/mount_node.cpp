@@ -1,5 +1,6 @@
 #include "modules/mount/mount_node.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -25,12 +26,14 @@ MountNode::MountNode(const MountConfig& config)
 const char* MountNode::take_speed(const vehicle_speed_t& message) {
   VehicleSpeed speed;
   if (const char* why = from_wire(message, &speed)) return why;
+  if (speed_sender_.take(message.session) == OneSender::Verdict::kForeign)
+    return "vehicle speed comes from a second sender";
   return height_.take_speed(speed);
 }
 
 const CameraHeight* MountNode::better_height() const {
-  const bool is_stated = height_.report().num_stretches < HeightLearner::kLeastStretches;
-  return is_stated ? nullptr : &height_.report().used;
+  const HeightReport& height = height_.report();
+  return std::isnan(height.by_vehicle.height_m) ? nullptr : &height.used;
 }
 
 const mount_t* MountNode::update(const GroundOutput& ground, const CameraHeight& stated_height) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "modules/integrity/one_sender.hpp"
 #include "modules/mount/height_learner.hpp"
 #include "modules/mount/mount_check.hpp"
 #include "modules/mount/mount_config.hpp"
@@ -41,6 +42,7 @@ class MountNode {
   std::string state_file_;
   MountCheck check_;
   HeightLearner height_;
+  OneSender speed_sender_;
   mount_t message_{};
   std::int64_t published_us_ = 0;
   char alarm_[160] = "";

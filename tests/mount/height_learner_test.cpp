@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace plumb {
 namespace {
@@ -23,7 +25,7 @@ class HeightLearnerTest : public testing::Test {
       ground_.ego.road_step_ln_var = 1e-4;
       ground_.ego.rate_ground_rad_s.z() = yaw_rate_rad_s_;
       if (speaks_ && !speaks_late_) say_speed(index_, vehicle_factor);
-      learner_.update(ground_, stated);
+      statuses_.push_back(learner_.update(ground_, stated).status);
       if (speaks_ && speaks_late_) say_speed(index_ - 3, vehicle_factor);
     }
   }
@@ -37,6 +39,7 @@ class HeightLearnerTest : public testing::Test {
   HeightLearner learner_{MountConfig{}};
   GroundOutput ground_;
   std::int64_t index_ = 0;
+  std::vector<HeightStatus> statuses_;  ///< after each image
   bool speaks_ = true;
   bool speaks_late_ = false;
   double scale_std_ = 0.002;
@@ -50,6 +53,14 @@ TEST_F(HeightLearnerTest, WithoutAVehicleSpeedTheStatedHeightStays) {
   EXPECT_NEAR(report().used.height_m, 1.65, 1e-12);
   EXPECT_NEAR(report().used.std_m, 0.3, 1e-12);
   EXPECT_TRUE(std::isnan(report().by_vehicle.height_m));
+}
+
+TEST_F(HeightLearnerTest, AnotherStatedHeightHoldsAtOnceUntilOneIsLearned) {
+  drive(60.0, kUnsure);
+  drive(kStep_m, {1.2, 0.02});
+  EXPECT_EQ(report().status, HeightStatus::kLearning);
+  EXPECT_EQ(report().used.height_m, 1.2);
+  EXPECT_EQ(report().used.std_m, 0.02);
 }
 
 TEST_F(HeightLearnerTest, LearnsTheHeight) {
@@ -106,10 +117,12 @@ TEST_F(HeightLearnerTest, AStretchThatDisagreesIsLeftOut) {
 TEST_F(HeightLearnerTest, TheOrderOfSpeedsAndImagesDoesNotMatter) {
   drive(300.0, kUnsure);
   const HeightReport early = report();
+  const std::vector<HeightStatus> early_statuses = std::exchange(statuses_, {});
   learner_ = HeightLearner{MountConfig{}};
   index_ = 0;
   speaks_late_ = true;
   drive(300.0, kUnsure);
+  EXPECT_EQ(statuses_, early_statuses);
   EXPECT_EQ(report().num_stretches, early.num_stretches);
   EXPECT_EQ(report().by_vehicle.height_m, early.by_vehicle.height_m);
   EXPECT_EQ(report().used.height_m, early.used.height_m);

@@ -56,6 +56,20 @@ TEST_F(MountNodeTest, SpeaksOnceASecondAndAtOnceWhenTheStatusChanges) {
   EXPECT_EQ(node.alarm(), nullptr);
 }
 
+TEST_F(MountNodeTest, FollowsOneSenderOfTheVehicleSpeed) {
+  MountNode node(config_);
+  const auto take = [&](std::int64_t utime, std::int64_t session) {
+    vehicle_speed_t message{};
+    message.utime = utime;
+    message.session = session;
+    return node.take_speed(message);
+  };
+  EXPECT_EQ(take(100'000, 7), nullptr);
+  EXPECT_STREQ(take(150'000, 6), "vehicle speed comes from a second sender");
+  EXPECT_EQ(take(200'000, 7), nullptr);
+  EXPECT_EQ(take(300'000, 8), nullptr) << "it was restarted";
+}
+
 TEST_F(MountNodeTest, AClockThatStepsBackDoesNotSilenceIt) {
   MountNode node(config_);
   drive(&node, 50.0, 0.5);
