@@ -48,7 +48,7 @@ class VehicleProcess {
     told_ = trouble;
     if (trouble == nullptr) return process_.health().clear_condition();
     const bool waits = trouble == kNoClock;
-    log_line("%s", waits || reader_.is_up() ? trouble : reader_.state().c_str());
+    log_warning("%s", waits || reader_.is_up() ? trouble : reader_.state().c_str());
     process_.health().set_condition(waits ? HealthState::kWaiting : HealthState::kDegraded,
                                     trouble);
   }
