@@ -2,24 +2,10 @@
 
 #include "core/channels.hpp"
 #include "modules/datasets/text.hpp"
-#include "plumb/status_names.hpp"
+#include "tools/run/replay/names.hpp"
 
 namespace plumb {
 namespace {
-
-template <std::size_t kSize>
-const char* word(const std::array<const char*, kSize>& names, int number) {
-  return number >= 0 && static_cast<std::size_t>(number) < kSize
-             ? names[static_cast<std::size_t>(number)]
-             : "?";
-}
-const char* vo_status_word(int n) { return word(kVoMotionStatusNames, n); }
-const char* vo_reason_word(int n) { return word(kVoMotionReasonNames, n); }
-const char* plane_status_word(int n) { return word(kGroundPlaneStatusNames, n); }
-const char* plane_reason_word(int n) { return word(kGroundPlaneReasonNames, n); }
-const char* ego_status_word(int n) { return word(kEgoMotionStatusNames, n); }
-const char* mount_status_word(int n) { return word(kMountStatusNames, n); }
-const char* mount_reason_word(int n) { return word(kMountReasonNames, n); }
 
 constexpr const char* kHealthStates[] = {"running", "waiting for input", "degraded", "stopping"};
 
@@ -74,15 +60,15 @@ void EventWatch::take(const vo_motion_t& message) {
   const bool lost = message.status == vo_motion_t::STATUS_LOST;
   const bool fine = message.status != vo_motion_t::STATUS_COASTING &&
                     message.status != vo_motion_t::STATUS_INITIALIZING;
-  follow("vo", message.status, message.reason, level_of(lost, fine), vo_status_word, vo_reason_word,
+  follow("vo", message.status, message.reason, level_of(lost, fine), vo_status_name, vo_reason_name,
          &vo_);
 }
 
 void EventWatch::take(const ground_plane_t& message) {
   const bool lost = message.status == ground_plane_t::STATUS_INVALID;
   const bool fine = message.status == ground_plane_t::STATUS_OK;
-  follow("plane", message.status, message.reason, level_of(lost, fine), plane_status_word,
-         plane_reason_word, &plane_);
+  follow("plane", message.status, message.reason, level_of(lost, fine), plane_status_name,
+         plane_reason_name, &plane_);
 }
 
 void EventWatch::take(const ego_motion_t& message) {
@@ -94,8 +80,8 @@ void EventWatch::take(const ego_motion_t& message) {
   const bool lost = message.status == ego_motion_t::STATUS_LOST;
   const bool fine = message.status == ego_motion_t::STATUS_OK ||
                     message.status == ego_motion_t::STATUS_STANDSTILL;
-  follow("ego", message.status, message.reason, level_of(lost, fine), ego_status_word,
-         vo_reason_word, &ego_);
+  follow("ego", message.status, message.reason, level_of(lost, fine), ego_status_name,
+         vo_reason_name, &ego_);
 }
 
 void EventWatch::take(const mount_t& message) {
@@ -105,8 +91,8 @@ void EventWatch::take(const mount_t& message) {
   // The reason says why one image was not used, and that is news only with the picture upside down.
   const int reason = message.reason == mount_t::REASON_UPSIDE_DOWN ? message.reason : 0;
   follow("mount", message.status, reason,
-         level_of(alarm, message.status != mount_t::STATUS_UNSTEADY), mount_status_word,
-         mount_reason_word, &mount_);
+         level_of(alarm, message.status != mount_t::STATUS_UNSTEADY), mount_status_name,
+         mount_reason_name, &mount_);
 }
 
 void EventWatch::tell_losses(const process_health_t& message, const char* process, Health* last) {

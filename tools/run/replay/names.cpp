@@ -25,6 +25,7 @@ const char* cue_status_name(int status) { return name_in(kGroundCueStatusNames, 
 const char* ego_status_name(int status) { return name_in(kEgoMotionStatusNames, status); }
 const char* height_status_name(int status) { return name_in(kMountHeightNames, status); }
 const char* mount_status_name(int status) { return name_in(kMountStatusNames, status); }
+const char* mount_reason_name(int reason) { return name_in(kMountReasonNames, reason); }
 const char* object_class_name(int number) { return name_in(kDetectionClassNames, number); }
 const char* object_status_name(int status) { return name_in(kObjectStatusNames, status); }
 const char* object_reason_name(int reason) { return name_in(kObjectReasonNames, reason); }

@@ -11,6 +11,7 @@ namespace plumb {
 [[nodiscard]] const char* cue_status_name(int status);
 [[nodiscard]] const char* ego_status_name(int status);
 [[nodiscard]] const char* mount_status_name(int status);
+[[nodiscard]] const char* mount_reason_name(int reason);
 [[nodiscard]] const char* height_status_name(int status);
 [[nodiscard]] const char* object_class_name(int number);
 [[nodiscard]] const char* object_status_name(int status);
