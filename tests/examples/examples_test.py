@@ -3,7 +3,6 @@
 import math
 import os
 import pathlib
-import struct
 import subprocess
 import sys
 import tempfile
@@ -11,6 +10,12 @@ import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / 'tools/lib'))
+from plumb_tools import private_network  # noqa: E402
+from plumb_tools.command_line import UsageError  # noqa: E402
+from plumb_tools.live_faults.wire import write_log  # noqa: E402
+
 SKIPPED = 77
 NUM_MOTIONS = 20
 
@@ -46,10 +51,7 @@ class ExamplesTest(unittest.TestCase):
             events += [('MOUNT', b'not for us'), ('EGO_MOTION', motion.encode())]
             if i >= 2:
                 cls.expected += f'{1 + 0.1 * i:.3f} s: {10 + math.sin(i):.2f} +- {0.05 * i:.2f} m/s\n'
-        with open(cls.log, 'wb') as file:
-            for number, (channel, data) in enumerate(events):
-                file.write(struct.pack('>IqqII', 0xEDA1DA01, number, 25000 * number, len(channel), len(data)))
-                file.write(channel.encode() + data)
+        write_log(cls.log, ((25000 * number, *event) for number, event in enumerate(events)))
 
     def environment(self):
         return {**os.environ, 'PYTHONPATH': str(self.folder), 'PYTHONDONTWRITEBYTECODE': '1'}
@@ -74,13 +76,9 @@ class ExamplesTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    if 'PLUMB_EXAMPLES_TEST_INSIDE' not in os.environ:
-        flags = ['--net'] if os.getuid() == 0 else ['--net', '--map-root-user']
-        if subprocess.run(['unshare', *flags, 'true'], stderr=subprocess.DEVNULL).returncode != 0:
-            print('skipped: a private network namespace is not permitted here (unshare -n)')
-            sys.exit(SKIPPED)
-        os.environ['PLUMB_EXAMPLES_TEST_INSIDE'] = '1'
-        os.execvp('unshare', ['unshare', *flags, sys.executable, *sys.argv])
-    subprocess.run(['ip', 'link', 'set', 'lo', 'up', 'multicast', 'on'], check=True)
-    subprocess.run(['ip', 'route', 'add', '224.0.0.0/4', 'dev', 'lo'], check=True)
+    try:
+        private_network.enter()
+    except UsageError as error:
+        print('skipped:', error)
+        sys.exit(SKIPPED)
     unittest.main()

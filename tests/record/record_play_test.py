@@ -12,20 +12,20 @@ import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / 'tools/lib'))
+from plumb_tools import private_network  # noqa: E402
+from plumb_tools.command_line import UsageError  # noqa: E402
+from plumb_tools.live_faults.wire import read_log  # noqa: E402
+
 BIN = pathlib.Path(os.environ.get('PLUMB_BIN', ROOT / 'build/release/bin'))
 DRIVE = ROOT / 'tools/run/demo_drive/drive.lcm'
 SKIPPED = 77
 
 
 def events(path):
-    """Yields (channel, data) of a log."""
-    log, at = path.read_bytes(), 0
-    while at < len(log):
-        sync, _, _, name, size = struct.unpack_from('>IqqII', log, at)
-        assert sync == 0xEDA1DA01, f'{path} is damaged at byte {at}'
-        at += 28
-        yield log[at:at + name].decode(), log[at + name:at + name + size]
-        at += name + size
+    """(channel, data) of every event of a log."""
+    return ((channel, data) for _, channel, data in read_log(path))
 
 
 class RecordPlayTest(unittest.TestCase):
@@ -170,19 +170,10 @@ class RecordPlayTest(unittest.TestCase):
         self.assertEqual(log.read_text(), 'old')
 
 
-def enter_private_network():
-    """Runs this test again in a network of its own, or ends it as skipped."""
-    flags = ['--net'] if os.getuid() == 0 else ['--net', '--map-root-user']
-    if subprocess.run(['unshare', *flags, 'true'], stderr=subprocess.DEVNULL).returncode != 0:
-        print('skipped: a private network namespace is not permitted here (unshare -n)')
-        sys.exit(SKIPPED)
-    os.environ['PLUMB_RECORD_TEST_INSIDE'] = '1'
-    os.execvp('unshare', ['unshare', *flags, sys.executable, *sys.argv])
-
-
 if __name__ == '__main__':
-    if 'PLUMB_RECORD_TEST_INSIDE' not in os.environ:
-        enter_private_network()
-    subprocess.run(['ip', 'link', 'set', 'lo', 'up', 'multicast', 'on'], check=True)
-    subprocess.run(['ip', 'route', 'add', '224.0.0.0/4', 'dev', 'lo'], check=True)
+    try:
+        private_network.enter()
+    except UsageError as error:
+        print('skipped:', error)
+        sys.exit(SKIPPED)
     unittest.main()

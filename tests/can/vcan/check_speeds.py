@@ -3,16 +3,17 @@
 
     check_speeds.py LOG SPEED_M_S
 """
+import pathlib
 import struct
 import sys
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / 'tools/lib'))
+from plumb_tools.live_faults.wire import read_log  # noqa: E402
+
 speeds, times = set(), []
-with open(sys.argv[1], 'rb') as log:
-    while len(header := log.read(28)) == 28:
-        _, _, _, channel_bytes, data_bytes = struct.unpack('>IqqII', header)
-        channel, data = log.read(channel_bytes), log.read(data_bytes)
-        if channel != b'VEHICLE_SPEED':
-            continue
+for _, channel, data in read_log(sys.argv[1]):
+    if channel == 'VEHICLE_SPEED':
         _, utime, _, speed_m_s, _ = struct.unpack('>qqqdd', data)
         speeds.add(round(speed_m_s, 9))
         times.append(utime)

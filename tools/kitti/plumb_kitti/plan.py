@@ -8,15 +8,8 @@ import pathlib
 import random
 
 from plumb_kitti import staging
+from plumb_tools.accuracy.bench import MODES
 
-MODES = {
-    'default': '',
-    'fixed': '[ground]\ncovariance = "fixed"\n',
-    'paper': '[ground]\nmode = "paper"\n',
-    'paper-fixed': '[ground]\nmode = "paper"\ncovariance = "fixed"\n',
-    'paper-dense': '[ground]\nmode = "paper"\ncues = "dense"\n',
-    'paper-points': '[ground]\nmode = "paper"\ncues = "points"\n',
-}
 # The planes of Fig. 12: calibrated, dense alone, fixed and adaptive fusion; and the default.
 PLANES = {'calibrated': '[objects]\nplane = "calibrated"\n', 'paper-dense': MODES['paper-dense'],
           'paper-fixed': MODES['paper-fixed'], 'paper': MODES['paper'], 'default': ''}

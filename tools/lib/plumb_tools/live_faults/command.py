@@ -1,6 +1,5 @@
 """The command line of tools/evaluate/live_faults, and the steps of a case."""
 import math
-import os
 import pathlib
 import shutil
 import subprocess
@@ -8,7 +7,7 @@ import sys
 import tempfile
 import time
 
-from plumb_tools import command_line, programs
+from plumb_tools import command_line, private_network, programs
 from plumb_tools.command_line import UsageError
 from plumb_tools.live_faults import wire
 from plumb_tools.live_faults.can_trace import Dbc
@@ -21,7 +20,6 @@ HEAD = ['kind', 'fault', 'what happens', 'valid frames', 'older than 250 ms whil
         'wrong while valid', 'worst error', 'time to detect', 'time to recover', 'counted']
 MOST_GROWTH_MB = 2.0
 SETTLED_S = 3.0  # estimators have been created by then
-INSIDE = 'PLUMB_LIVE_FAULTS_INSIDE'
 INPUTS = 'CAMERA|CAMERA_CALIBRATION|DETECTIONS'
 RESULTS = ('VO_MOTION', 'GROUND_PLANE', 'EGO_MOTION', 'OBJECTS')
 
@@ -122,19 +120,6 @@ def with_results(log, listener, path):
     return path
 
 
-def enter_private_network():
-    """Starts this program again in a network of its own, which LCM multicast cannot leave."""
-    if os.environ.get(INSIDE):
-        for words in ('link set lo up multicast on', 'route add 224.0.0.0/4 dev lo'):
-            subprocess.run(['ip', *words.split()], check=True)
-        return
-    os.environ[INSIDE] = '1'
-    flags = ['--net'] if os.geteuid() == 0 else ['--net', '--map-root-user']
-    if subprocess.run(['unshare', *flags, 'true'], capture_output=True).returncode != 0:
-        raise UsageError('a private network namespace is not permitted here (unshare --net)')
-    os.execvp('unshare', ['unshare', *flags, sys.executable, *sys.argv])
-
-
 def parse(cases):
     parser = command_line.Parser('live_faults')
     parser.add_argument('log', metavar='LOG', type=command_line.file)
@@ -149,7 +134,7 @@ def parse(cases):
 def main():
     cases = all_cases()
     options = parse(cases)
-    enter_private_network()
+    private_network.enter()
     kept = True
     recorded = None
     with tempfile.TemporaryDirectory() as folder:
