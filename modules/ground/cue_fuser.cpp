@@ -3,15 +3,6 @@
 #include <cmath>
 
 namespace plumb {
-namespace {
-
-// Standard deviations of the road's speed by which the height of another cue may differ from it.
-// A speed that is known less well than that is no judge of them.
-constexpr double kMostMotionStds = 2.0;
-constexpr double kLargestJudgeStd = 0.08;
-
-}  // namespace
-
 bool any_height(const Observations& observations, CueStatus status) {
   for (std::size_t i = 0; i < kNumCues; ++i) {
     if (kCueTable[i].measures_height && observations[i].report.status == status) return true;
@@ -24,19 +15,6 @@ void start_filter(const Observations& observations, PlaneFilter* filter) {
     if (std::isnan(observation.start_ln_height)) continue;
     filter->start(observation.prior.normal_cam, observation.start_ln_height);
     return;
-  }
-}
-
-void hold_against_motion(Observations* observations) {
-  const CueReport& motion = (*observations)[kCueMotion].report;
-  if (motion.status != CueStatus::kUsed) return;
-  const double std = std::sqrt(motion.height_var) / motion.height;
-  if (std > kLargestJudgeStd) return;
-  for (std::size_t i = 0; i < kNumCues; ++i) {
-    CueReport& report = (*observations)[i].report;
-    if (!kCueTable[i].measures_height || report.status != CueStatus::kUsed) continue;
-    const double apart = std::abs(std::log(report.height / motion.height));
-    if (apart > kMostMotionStds * std) report.status = CueStatus::kFailed;
   }
 }
 

@@ -20,10 +20,6 @@ using Observations = std::array<Observation, kNumCues>;
 /// Initialises the filter from the first cue that is certain enough; else leaves it as it is.
 void start_filter(const Observations& observations, PlaneFilter* filter);
 
-/// Marks cues as failed whose height the road's speed contradicts: what is attached to the camera,
-/// or texture that compression has smeared, may align better with another plane.
-void hold_against_motion(Observations* observations);
-
 /// Fuses the used cues that measure the height, or those that do not. Notes innovation and test
 /// ratio in each report, and kGated where the gate rejected the cue. @pre filter->started()
 void fuse_cues(bool height_cues, PlaneFilter* filter, Observations* observations);

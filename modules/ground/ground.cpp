@@ -17,6 +17,7 @@
 #include "modules/ground/ego/ego_motion.hpp"
 #include "modules/ground/ego/unit_watch.hpp"
 #include "modules/ground/filter/scale_drift.hpp"
+#include "modules/ground/motion_judge.hpp"
 #include "modules/ground/plane_report.hpp"
 
 namespace plumb {
@@ -27,16 +28,21 @@ namespace {
 constexpr int kStartProven = 3;
 constexpr int kStartFailed = 3;
 
-// Weight of a new image in the running mean of the gap between the road's speed and the filter, and
-// how many standard deviations of the speed it may have.
-constexpr double kMotionGapShare = 0.5;
-constexpr double kMostMotionGapStds = 0.5;
+// The doubt about a start falls to a half within this time: errors of images that follow each other
+// more quickly are the same ones.
+constexpr double kDoubtTime_s = 0.1;
+
+// How far the height of a cue may have misled the filter that the road's speed disproves later.
+constexpr double kDoubtedHeightStd = 0.1;
 
 std::unique_ptr<const CueCovariance> make_covariance(const GroundConfig& config,
                                                      const GroundModel& model) {
   if (config.covariance == "fixed") return std::make_unique<FixedCovariance>();
   return std::make_unique<LearnedCovariance>(model);
 }
+
+/// Time since the previous image; 0 when it is not known.
+double passed_s(const VoOutput& vo) { return vo.interval_s > 0.0 ? vo.interval_s : 0.0; }
 
 /// VO's result holds a rotation since the previous image.
 bool has_rotation(const VoOutput& vo) {
@@ -48,11 +54,15 @@ bool has_rotation(const VoOutput& vo) {
 
 /// What speaks for a start of the filter and against it, until enough does.
 struct StartTrial {
-  int num_used = 0;    ///< images with a measured height since the start or a new unit
-  int num_missed = 0;  ///< images in which the road should have been seen
-  bool open = false;   ///< the start can still turn out to be wrong
+  int num_used = 0;     ///< images with a measured height since the start or a new unit
+  double used_s = 0.0;  ///< from the first of them to the last one
+  int num_missed = 0;   ///< images in which the road should have been seen
+  bool open = false;    ///< the start can still turn out to be wrong
 
-  void take(bool used) { (used ? num_used : num_missed) += 1; }
+  void take(bool used, double dt_s) {
+    if (used && num_used > 0) used_s += dt_s;
+    (used ? num_used : num_missed) += 1;
+  }
 };
 
 struct GroundEstimator::Impl {
@@ -82,9 +92,7 @@ struct GroundEstimator::Impl {
   void fuse(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void fuse_height(const CueFrame& frame, const FramePrior& prior, Observations* observations);
   void report(const CueFrame& frame, const FramePrior& prior, const Observations& observations);
-  void try_start(bool used, bool rejected);
-  void follow_motion_gap(const Observation& motion);
-  [[nodiscard]] double motion_gap_excess() const;
+  void try_start(bool used, bool rejected, double dt_s);
   void diagnose(const CueFrame& frame, const FramePrior& prior);
   [[nodiscard]] HeightMeasurement height_seen(const Observations& observations) const;
   [[nodiscard]] RoadShape road_shape(const Chord& chord) const;
@@ -110,8 +118,7 @@ struct GroundEstimator::Impl {
   std::int32_t scale_epoch = 0;
   bool unit_proven = true;
   StartTrial trial;
-  double motion_gap = 0.0;      ///< ln height by the road's speed less the filter's, running mean
-  double motion_gap_std = 0.0;  ///< of the road's speed
+  MotionJudge motion_judge;
   GroundOutput out;
   CueDiagnostics diagnostics;
 };
@@ -208,7 +215,7 @@ void GroundEstimator::Impl::take_height(const GroundInput& input) {
 void GroundEstimator::Impl::measure_road_step(const VoOutput& vo, bool measured) {
   if (!measured || vo.status != VoStatus::kOk || !filter.converged()) return;
   out.ego.road_step_heights = vo.T_prev_cam.t.norm() / filter.height();
-  out.ego.road_step_ln_var = filter.cov()(2, 2) + square(motion_gap_excess());
+  out.ego.road_step_ln_var = filter.cov()(2, 2) + square(motion_judge.excess());
 }
 
 FramePrior GroundEstimator::Impl::predict(const CueFrame& frame) {
@@ -266,7 +273,8 @@ Observations GroundEstimator::Impl::measure(const CueFrame& frame, FramePrior* p
     *prior = observations[i].prior;
     probe.mark(kCueTable[i].name);
   }
-  hold_against_motion(&observations);
+  const bool doubts = motion_judge.judge(passed_s(*frame.vo), &observations);
+  if (doubts && filter.started()) filter.doubt_height(square(kDoubtedHeightStd));
   return observations;
 }
 
@@ -284,8 +292,9 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   if (starts) {
     start_filter(*observations, &filter);
     residuals.reset();
-    motion_gap = 0.0;
-    trial = {0, 0, true};
+    motion_judge.forget_filter();
+    trial = {};
+    trial.open = true;
   }
   if (!filter.started()) return;
   filter.fuse(filter.level_roll());
@@ -296,38 +305,22 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
   path.road = RoadPart::kUnderCar;
   path.gated = false;
   filter.fuse(path);
-  follow_motion_gap((*observations)[kCueMotion]);
+  motion_judge.follow_filter((*observations)[kCueMotion], filter.state()(2));
   fuse_cues(true, &filter, observations);
   const bool rejected = any_height(*observations, CueStatus::kGated);
   const bool used = any_height(*observations, CueStatus::kUsed);
   // Cues that contradict each other did not start on the road, but on a truck's back or a mirror.
   if (starts && rejected) filter.reset();
-  try_start(used, rejected);
+  try_start(used, rejected, passed_s(*frame.vo));
   filter.end_frame(used, rejected);
   const bool dense_used = (*observations)[kCueDense].report.status == CueStatus::kUsed;
   residuals.add({prior.context, frame.chord.direction, dense_used ? &dense_cue.last() : nullptr},
                 filter.ahead());
 }
 
-/// The other cues may agree among themselves on a plane that the road's speed contradicts.
-void GroundEstimator::Impl::follow_motion_gap(const Observation& motion) {
-  if (motion.report.status != CueStatus::kUsed) {
-    motion_gap *= 1.0 - kMotionGapShare;  // what it said holds for its own images
-    return;
-  }
-  const double gap = std::log(motion.report.height) - filter.state()(2);
-  motion_gap += kMotionGapShare * (gap - motion_gap);
-  motion_gap_std = std::sqrt(motion.report.height_var) / motion.report.height;
-}
-
-/// How much more the two differ than the road's speed may.
-double GroundEstimator::Impl::motion_gap_excess() const {
-  return std::max(0.0, std::abs(motion_gap) - kMostMotionGapStds * motion_gap_std);
-}
-
 /// A start that the next images do not confirm was none.
-void GroundEstimator::Impl::try_start(bool used, bool rejected) {
-  trial.take(used);
+void GroundEstimator::Impl::try_start(bool used, bool rejected, double dt_s) {
+  trial.take(used, dt_s);
   if (!trial.open) return;
   trial.open = trial.num_used < kStartProven;
   if (trial.open && ((rejected && !used) || trial.num_missed >= kStartFailed)) filter.reset();
@@ -387,8 +380,8 @@ ScaleEstimate GroundEstimator::Impl::scale(const VoOutput& vo, const FramePrior&
   scale.measured_now = measured;
   scale.log_scale = std::log(camera_height.height_m) - filter.state()(2);
   // A single height may be wrong by more than its own image can tell.
-  const double doubt = config.filter.start_doubt_std / std::max(1, trial.num_used);
-  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt + square(motion_gap_excess());
+  const double doubt = config.filter.start_doubt_std / (1.0 + trial.used_s / kDoubtTime_s);
+  scale.var = filter.cov()(2, 2) + constant_var + doubt * doubt + square(motion_judge.excess());
   const bool confirmed = !trial.open || trial.num_used >= config.filter.start_confirmations;
   scale.known = unit_proven && confirmed && scale.var <= square(config.ego.most_log_scale_std);
   if (prior.ln_height_var > 0.0) {

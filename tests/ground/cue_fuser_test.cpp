@@ -47,34 +47,6 @@ TEST(CueTable, NamesEveryCueOnce) {
   EXPECT_STREQ(kCueTable[kCueObjects].name, "objects");
 }
 
-/// What the cues say of the height when the road's speed says 1 +- `motion_std`.
-Observations heights(double motion_std, double dense, double points) {
-  Observations observations;
-  const auto say = [&](CueId cue, double height, double std) {
-    observations[cue].report.status = CueStatus::kUsed;
-    observations[cue].report.height = height;
-    observations[cue].report.height_var = square(std * height);
-  };
-  say(kCueMotion, 1.0, motion_std);
-  say(kCueDense, dense, 0.01);
-  say(kCuePoints, points, 0.01);
-  return observations;
-}
-
-TEST(CueFuser, TheRoadsSpeedRefusesAHeightThatContradictsIt) {
-  Observations observations = heights(0.05, 1.2, 1.05);
-  hold_against_motion(&observations);
-  EXPECT_EQ(observations[kCueDense].report.status, CueStatus::kFailed);
-  EXPECT_EQ(observations[kCuePoints].report.status, CueStatus::kUsed);
-  EXPECT_EQ(observations[kCueMotion].report.status, CueStatus::kUsed);
-}
-
-TEST(CueFuser, ASpeedThatIsPoorlyKnownRefusesNothing) {
-  Observations observations = heights(0.09, 1.4, 1.05);
-  hold_against_motion(&observations);
-  EXPECT_EQ(observations[kCueDense].report.status, CueStatus::kUsed);
-}
-
 TEST(CueFuser, FusesOnlyTheCuesThatAreAskedFor) {
   PlaneFilter filter = hand_filter();
   Observations observations;

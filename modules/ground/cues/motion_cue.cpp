@@ -5,8 +5,9 @@
 namespace plumb {
 namespace {
 
-// Number of images that share one error: that of the pitch, which changes slowly.
-constexpr double kCorrelatedImages = 60.0;
+// Share of the deviation that is new in each image. The rest is that of the pitch, which changes
+// slowly.
+constexpr double kNewShare = 0.25;
 
 }  // namespace
 
@@ -22,7 +23,8 @@ Observation MotionCue::measure(const CueFrame& frame, const FramePrior& prior) {
   out.report.quality = 1.0;
   out.plane.function = observe_height;
   out.plane.value(0) = last_.ln_height;
-  out.plane.cov(0, 0) = kCorrelatedImages * last_.var;
+  out.plane.cov(0, 0) = square(kNewShare) * last_.var;
+  out.plane.speed_error_var = (1.0 - square(kNewShare)) * last_.var;
   out.plane.first_component = 2;
   out.start_ln_height = last_.ln_height;
   out.prior.measurable =

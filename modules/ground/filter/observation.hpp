@@ -32,6 +32,9 @@ struct PlaneObservation {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();  ///< as `function` takes it
   Eigen::Matrix3d cov = Eigen::Matrix3d::Zero();    ///< R, its first num_rows rows and columns
   RoadPart road = RoadPart::kAhead;
+  /// Above 0: the value has the slowly changing error of the road's speed, of this variance, in
+  /// addition. One row only.
+  double speed_error_var = 0.0;
   bool gated = true;        ///< robust: an innovation beyond the gate is rejected
   int first_component = 0;  ///< of (n1, n3, ln h) that the first row's innovation is reported as
 };

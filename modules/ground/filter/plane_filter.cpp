@@ -8,6 +8,14 @@
 #include "core/se3.hpp"
 
 namespace plumb {
+namespace {
+
+// Index of the error of the road's speed in the state, and the distance in camera heights over
+// which it stays correlated.
+constexpr int kSpeedError = 4;
+constexpr double kSpeedErrorLength = 400.0;
+
+}  // namespace
 
 PlaneFilter::Jacobian PlaneFilter::ahead_jacobian(const RoadBend& bend) {
   Jacobian J = Jacobian::Identity();
@@ -16,7 +24,7 @@ PlaneFilter::Jacobian PlaneFilter::ahead_jacobian(const RoadBend& bend) {
 }
 
 double PlaneFilter::ahead_var(const Eigen::RowVector3d& g) const {
-  const Eigen::RowVector4d h = g * to_ahead_ - Eigen::RowVector4d::Unit(2);
+  const Row h = g * to_ahead_ - Row::Unit(2);
   return h * P_ * h.transpose();
 }
 
@@ -32,10 +40,11 @@ void PlaneFilter::start(const Eigen::Vector3d& normal, double ln_height) {
   started_ = true;
   num_rejected_frames_ = 0;
   bend_var_ = square(bend_.start_std);
-  x_ << normal.x(), normal.z(), ln_height, 0.0;
+  x_ << normal.x(), normal.z(), ln_height, 0.0, 0.0;
   const double tilt_var = square(config_.start_tilt_std_rad);
-  P_ = Eigen::Vector4d(tilt_var, tilt_var, square(config_.start_ln_height_std), bend_var_)
-           .asDiagonal();
+  State var;
+  var << tilt_var, tilt_var, square(config_.start_ln_height_std), bend_var_, speed_error_var_;
+  P_ = var.asDiagonal();
 }
 
 void PlaneFilter::change_unit(double ln_ratio_std) {
@@ -53,7 +62,7 @@ void PlaneFilter::predict(const Eigen::Matrix3d& R_prev_cam, double step_ratio) 
   // n_cam = R_prev_cam^T n_prev, restricted to (n1, n3).
   const Eigen::Matrix3d R_cam_prev = R_prev_cam.transpose();
   const Eigen::Matrix<double, 3, 2> dn = R_cam_prev * normal_jacobian(state());
-  Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
+  Covariance F = Covariance::Identity();
   F.topLeftCorner<1, 2>() = dn.row(0);
   F.block<1, 2>(1, 0) = dn.row(2);
   const Eigen::Vector3d n = R_cam_prev * normal();
@@ -69,6 +78,7 @@ void PlaneFilter::predict(const Eigen::Matrix3d& R_prev_cam, double step_ratio) 
   P_(2, 2) +=
       square(config_.scale_drift_std) * steps + square(config_.turn_scale_drift_std) * turned_rad;
   predict_bend(step_ratio);
+  fade(kSpeedError, std::exp(-step_ratio / kSpeedErrorLength), speed_error_var_);
 }
 
 /// The bend's strength is that of this drive so far: on flat drives errors of the cues must not
@@ -78,11 +88,23 @@ void PlaneFilter::predict_bend(double step_ratio) {
   const double old = std::exp(-step_ratio / config_.bend_strength_ratio);
   bend_var_ = std::max(square(config_.least_bend_std),
                        old * bend_var_ + (1.0 - old) * (square(x_(3)) + P_(3, 3)));
-  const double keep = std::exp(-step_ratio / bend_.correlation_length_ratio);
-  x_(3) *= keep;
-  P_.row(3) *= keep;
-  P_.col(3) *= keep;
-  P_(3, 3) += (1.0 - keep * keep) * bend_var_;
+  fade(3, std::exp(-step_ratio / bend_.correlation_length_ratio), bend_var_);
+}
+
+/// Predicts a component that is a first-order Gauss-Markov process of this variance.
+void PlaneFilter::fade(int component, double keep, double var) {
+  x_(component) *= keep;
+  P_.row(component) *= keep;
+  P_.col(component) *= keep;
+  P_(component, component) += (1.0 - keep * keep) * var;
+}
+
+void PlaneFilter::doubt_height(double var) {
+  P_(2, 2) += var;
+  x_(kSpeedError) = 0.0;
+  P_.row(kSpeedError).setZero();
+  P_.col(kSpeedError).setZero();
+  P_(kSpeedError, kSpeedError) = speed_error_var_;
 }
 
 PlaneObservation PlaneFilter::level_roll() const {
@@ -104,11 +126,24 @@ FuseResult PlaneFilter::fuse(const PlaneObservation& observation) {
   } else {
     H.leftCols<3>() = at.jacobian;
   }
+  if (observation.speed_error_var > 0.0) {
+    know_speed_error(observation.speed_error_var);
+    H(0, kSpeedError) = 1.0;
+    return fuse_scalar(H.row(0), at.innovation(0) - x_(kSpeedError), observation);
+  }
   return at.num_rows == 1 ? fuse_scalar(H.row(0), at.innovation(0), observation)
                           : fuse_plane(H, at.innovation, observation);
 }
 
-FuseResult PlaneFilter::fuse_scalar(const Eigen::RowVector4d& H, double innovation,
+/// The variance of the road's speed is stated with it. What was not known of it before, nothing has
+/// told yet.
+void PlaneFilter::know_speed_error(double var) {
+  const double known = P_(kSpeedError, kSpeedError);
+  if (var > speed_error_var_) P_(kSpeedError, kSpeedError) = known + var - speed_error_var_;
+  speed_error_var_ = var;
+}
+
+FuseResult PlaneFilter::fuse_scalar(const Row& H, double innovation,
                                     const PlaneObservation& observation) {
   FuseResult result;
   result.innovation(observation.first_component) = innovation;
@@ -121,9 +156,9 @@ FuseResult PlaneFilter::fuse_scalar(const Eigen::RowVector4d& H, double innovati
     var *= (config_.student_t_dof + e2) / (config_.student_t_dof + 1.0);
     S = H * P_ * H.transpose() + var;
   }
-  const Eigen::Vector4d K = P_ * H.transpose() / S;
+  const State K = P_ * H.transpose() / S;
   x_ += K * innovation;
-  const Eigen::Matrix4d IKH = Eigen::Matrix4d::Identity() - K * H;
+  const Covariance IKH = Covariance::Identity() - K * H;
   P_ = IKH * P_ * IKH.transpose() + var * K * K.transpose();
   result.accepted = true;
   return result;
@@ -141,9 +176,9 @@ FuseResult PlaneFilter::fuse_plane(const Jacobian& H, const Eigen::Vector3d& inn
     if (e2 > config_.plane_gate) return result;
     R *= (config_.student_t_dof + e2) / (config_.student_t_dof + 1.0);
   }
-  const Eigen::Matrix<double, 4, 3> K = P_ * H.transpose() * (expected + R).inverse();
+  const Eigen::Matrix<double, kSize, 3> K = P_ * H.transpose() * (expected + R).inverse();
   x_ += K * innovation;
-  const Eigen::Matrix4d IKH = Eigen::Matrix4d::Identity() - K * H;
+  const Covariance IKH = Covariance::Identity() - K * H;
   P_ = IKH * P_ * IKH.transpose() + K * R * K.transpose();
   result.accepted = true;
   return result;

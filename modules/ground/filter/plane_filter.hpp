@@ -1,4 +1,4 @@
-/// Extended Kalman filter of the road in VO's unit: x = (n1, n3, ln h, b).
+/// Extended Kalman filter of the road in VO's unit: x = (n1, n3, ln h, b, m).
 ///
 /// The filter holds two planes with one covariance:
 /// - the plane under the car, (n1, n3, ln h). The direction of translation and the scale refer to
@@ -8,6 +8,10 @@
 /// - the plane ahead, (n1, n3 + b, ln h + slope b), which the camera sees. The bend b is a
 ///   first-order Gauss-Markov process over the distance travelled, as strong as the road's bends
 ///   have lately been.
+///
+/// m is the error of the height that the road's speed gives (cues/motion_cue.hpp). It comes from
+/// the pitch of the camera and changes slowly, over the distance travelled: the other cues tell it,
+/// and while they see nothing, the road's speed follows the drift of VO's unit finely.
 ///
 /// Robustness: innovations are taken as Student-t distributed. R grows by (nu + e^2) / (nu + 1)
 /// with e^2 = y^T S^-1 y per degree of freedom, and an observation whose e^2 exceeds its gate is
@@ -70,6 +74,9 @@ class PlaneFilter {
   void change_unit(double ln_ratio_std);
   /// The drift of VO's unit while no cue sees the road adds this variance.
   void add_height_var(double var) { P_(2, 2) += var; }
+  /// Nothing is known any more of the error of the road's speed, and the height may be wrong by
+  /// this variance in addition: what told them was refused.
+  void doubt_height(double var);
   /// The camera's height over the road changed by this factor, at the same scale.
   void change_height(double ln_ratio);
 
@@ -87,11 +94,16 @@ class PlaneFilter {
   void end_frame(bool any_used, bool any_rejected);
 
  private:
-  using Jacobian = Eigen::Matrix<double, 3, 4>;
+  static constexpr int kSize = 5;
+  using State = Eigen::Matrix<double, kSize, 1>;
+  using Covariance = Eigen::Matrix<double, kSize, kSize>;
+  using Row = Eigen::Matrix<double, 1, kSize>;
+  using Jacobian = Eigen::Matrix<double, 3, kSize>;
 
   void predict_bend(double step_ratio);
-  FuseResult fuse_scalar(const Eigen::RowVector4d& H, double innovation,
-                         const PlaneObservation& observation);
+  void know_speed_error(double var);
+  void fade(int component, double keep, double var);
+  FuseResult fuse_scalar(const Row& H, double innovation, const PlaneObservation& observation);
   FuseResult fuse_plane(const Jacobian& H, const Eigen::Vector3d& innovation,
                         const PlaneObservation& observation);
   [[nodiscard]] static Jacobian ahead_jacobian(const RoadBend& bend);
@@ -101,9 +113,10 @@ class PlaneFilter {
   Jacobian to_ahead_ = ahead_jacobian(bend_);
   bool started_ = false;
   int num_rejected_frames_ = 0;
-  double bend_var_ = 0.0;  ///< of this drive's road, as far as it has shown
-  Eigen::Vector4d x_ = Eigen::Vector4d::Zero();
-  Eigen::Matrix4d P_ = Eigen::Matrix4d::Zero();
+  double bend_var_ = 0.0;         ///< of this drive's road, as far as it has shown
+  double speed_error_var_ = 0.0;  ///< of the road's speed, as it was last stated
+  State x_ = State::Zero();
+  Covariance P_ = Covariance::Zero();
 };
 
 }  // namespace plumb

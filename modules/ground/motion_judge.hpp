@@ -1,0 +1,44 @@
+/// Holds the heights of the other cues, and that of the filter, against the height that the road's
+/// speed gives (MotionCue).
+///
+/// What is attached to the camera, and texture that compression has smeared, may align better with
+/// another plane than with the road. One such height can be refused when it is far from that of
+/// the road's speed. A cue whose heights scatter about it, or stay to one side of it, by more than
+/// both deviations allow, image after image, states deviations that do not hold on this road, and
+/// is refused altogether.
+///
+/// Units:
+///   Natural logarithms of heights; seconds.
+#pragma once
+
+#include <array>
+
+#include "modules/ground/cue_fuser.hpp"
+
+namespace plumb {
+
+class MotionJudge {
+ public:
+  /// Marks the heights that are refused as failed. `dt_s` is the interval since the last image.
+  /// @return whether a cue that was used until now is refused from this image on
+  [[nodiscard]] bool judge(double dt_s, Observations* observations);
+
+  /// Follows how far the road's speed is from the filter's height. The other cues may agree among
+  /// themselves on a plane that the road's speed contradicts.
+  void follow_filter(const Observation& motion, double ln_height);
+  /// How much farther the two are from each other than the road's speed may err.
+  [[nodiscard]] double excess() const;
+  /// The filter starts anew.
+  void forget_filter() { gap_ = 0.0; }
+
+ private:
+  void judge_cue(std::size_t cue, double dt_s, Observations* observations);
+
+  std::array<bool, kNumCues> refused_{};
+  std::array<double, kNumCues> judged_s_{};  // for so long
+  std::array<double, kNumCues> misfit_{};  // running mean of the squared distance over its variance
+  double gap_ = 0.0;      // ln height by the road's speed less the filter's, running mean
+  double gap_std_ = 0.0;  // of the road's speed
+};
+
+}  // namespace plumb

@@ -1,0 +1,107 @@
+/// Tests what the road's speed makes of the heights of the other cues.
+#include "modules/ground/motion_judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/numbers.hpp"
+
+namespace plumb {
+namespace {
+
+constexpr double kInterval_s = 0.04;
+
+/// What the cues say of the height when the road's speed says 1 +- `motion_std`.
+Observations heights(double motion_std, double dense, double points) {
+  Observations observations;
+  const auto say = [&](CueId cue, double height, double std) {
+    observations[cue].report.status = CueStatus::kUsed;
+    observations[cue].report.height = height;
+    observations[cue].report.height_var = square(std * height);
+  };
+  say(kCueMotion, 1.0, motion_std);
+  say(kCueDense, dense, 0.01);
+  say(kCuePoints, points, 0.01);
+  return observations;
+}
+
+CueStatus dense_after(MotionJudge* judge, double dense) {
+  Observations observations = heights(0.05, dense, 1.0);
+  (void)judge->judge(kInterval_s, &observations);
+  return observations[kCueDense].report.status;
+}
+
+TEST(MotionJudge, RefusesASingleHeightThatContradictsTheRoadsSpeed) {
+  MotionJudge judge;
+  Observations observations = heights(0.05, 1.2, 1.05);
+  EXPECT_FALSE(judge.judge(kInterval_s, &observations)) << "one height is no reason to doubt more";
+  EXPECT_EQ(observations[kCueDense].report.status, CueStatus::kFailed);
+  EXPECT_EQ(observations[kCuePoints].report.status, CueStatus::kUsed);
+  EXPECT_EQ(observations[kCueMotion].report.status, CueStatus::kUsed);
+}
+
+TEST(MotionJudge, ASpeedThatIsPoorlyKnownRefusesNothing) {
+  MotionJudge judge;
+  for (int i = 0; i < 100; ++i) {
+    Observations observations = heights(0.09, 1.4, 1.05);
+    EXPECT_FALSE(judge.judge(kInterval_s, &observations));
+    EXPECT_EQ(observations[kCueDense].report.status, CueStatus::kUsed);
+  }
+}
+
+TEST(MotionJudge, RefusesACueWhoseHeightsScatterAndSaysSoOnce) {
+  MotionJudge judge;
+  int num_said = 0;
+  for (int i = 0; i < 75; ++i) {  // 3 s
+    Observations observations = heights(0.05, i % 2 == 0 ? 0.8 : 0.95, 1.04);
+    num_said += judge.judge(kInterval_s, &observations) ? 1 : 0;
+    EXPECT_EQ(observations[kCuePoints].report.status, CueStatus::kUsed);
+  }
+  EXPECT_EQ(num_said, 1);
+  EXPECT_EQ(dense_after(&judge, 1.0), CueStatus::kFailed) << "one good height is not enough";
+}
+
+TEST(MotionJudge, TakesACueBackThatAgreesForSomeTime) {
+  MotionJudge judge;
+  for (int i = 0; i < 75; ++i) (void)dense_after(&judge, 0.8);
+  for (int i = 0; i < 75; ++i) (void)dense_after(&judge, 1.0);
+  EXPECT_EQ(dense_after(&judge, 1.0), CueStatus::kUsed);
+}
+
+TEST(MotionJudge, OneWildHeightRefusesNoOtherOne) {
+  MotionJudge judge;
+  for (int i = 0; i < 75; ++i) EXPECT_EQ(dense_after(&judge, 1.03), CueStatus::kUsed);
+  EXPECT_EQ(dense_after(&judge, 3.0), CueStatus::kFailed);
+  EXPECT_EQ(dense_after(&judge, 1.03), CueStatus::kUsed);
+}
+
+TEST(MotionJudge, JudgesAlikeAtAnyRateOfImages) {
+  const auto refused_after_s = [](double interval_s) {
+    MotionJudge judge;
+    double time_s = 0.0;
+    Observations observations = heights(0.05, 0.9, 1.0);
+    while (!judge.judge(interval_s, &observations) && time_s < 10.0) {
+      time_s += interval_s;
+      observations = heights(0.05, 0.9, 1.0);
+    }
+    return time_s;
+  };
+  EXPECT_LT(refused_after_s(0.1), 5.0);
+  EXPECT_NEAR(refused_after_s(0.1), refused_after_s(0.03), 0.2);
+}
+
+TEST(MotionJudge, TheGapToTheFilterCountsBeyondHalfADeviation) {
+  MotionJudge judge;
+  Observation motion = heights(0.06, 1.0, 1.0)[kCueMotion];
+  for (int i = 0; i < 20; ++i) judge.follow_filter(motion, 0.02);
+  EXPECT_EQ(judge.excess(), 0.0);
+  for (int i = 0; i < 20; ++i) judge.follow_filter(motion, 0.10);
+  EXPECT_NEAR(judge.excess(), 0.07, 1e-3);
+  motion.report.status = CueStatus::kAbsent;
+  for (int i = 0; i < 20; ++i) judge.follow_filter(motion, 0.10);
+  EXPECT_EQ(judge.excess(), 0.0) << "without the road's speed";
+}
+
+}  // namespace
+}  // namespace plumb
