@@ -124,7 +124,7 @@ void Chain::take_vehicle_speed(std::span<const std::uint8_t> bytes) {
 }
 
 void Chain::watch_mount() {
-  mount_message_ = mount_.update(*ground_.output(), ground_.stated_height());
+  mount_message_ = mount_.update(*ground_.output(), ground_.stated_height(), ground_.num_cameras());
   if (const CameraHeight* height = mount_.better_height()) ground_.correct_camera_height(*height);
 }
 

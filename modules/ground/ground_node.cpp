@@ -28,6 +28,7 @@ const char* GroundNode::take_calibration(const camera_calibration_t& message) {
 void GroundNode::build() {
   if (!calibration_.take_change()) return;
   if (calibrated()) reset_offset_ = ego_.reset_counter + 1;
+  ++num_cameras_;
   waiting_ = false;
   output_ = nullptr;
   const CameraModel& camera = calibration_.camera();

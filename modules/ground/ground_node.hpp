@@ -80,6 +80,8 @@ class GroundNode {
   [[nodiscard]] const CameraHeight& stated_height() const { return stated_height_; }
 
   [[nodiscard]] bool calibrated() const { return algorithm_ != nullptr; }
+  /// Number of calibrations that have been taken.
+  [[nodiscard]] int num_cameras() const { return num_cameras_; }
   [[nodiscard]] bool waiting() const { return waiting_; }
   /// What went into the newest frame; null before a calibration and when the algorithm does not
   /// tell.
@@ -114,6 +116,7 @@ class GroundNode {
   Sink sink_;
   std::int64_t session_ = 0;
   CalibrationKeeper calibration_;
+  int num_cameras_ = 0;
   CameraHeight stated_height_;
   CameraHeight camera_height_;
   bool is_height_correction_ = false;

@@ -55,6 +55,16 @@ const HeightReport& HeightLearner::update(const GroundOutput& ground, const Came
   return report_;
 }
 
+void HeightLearner::forget() {
+  last_us_ = 0;
+  steps_.clear();
+  ended_.clear();
+  heights_ = way_m_ = var_sum_ = 0.0;
+  num_stretches_ = 0;
+  ln_height_ = var_ = kNan;
+  report_ = {};
+}
+
 void HeightLearner::use_steps() {
   while (!steps_.empty() && track_.reaches(steps_.front().end_us)) {
     const Step step = steps_.front();

@@ -57,6 +57,8 @@ class HeightLearner {
   /// Takes a ground result and the height that the calibration or the configuration states. The
   /// report is valid until the next call.
   const HeightReport& update(const GroundOutput& ground, const CameraHeight& stated);
+  /// Another camera: what was learned of the last one is void. The vehicle's speeds stay.
+  void forget();
   [[nodiscard]] const HeightReport& report() const { return report_; }
 
  private:
@@ -88,7 +90,7 @@ class HeightLearner {
   double var_sum_ = 0.0;  ///< of the steps' ln_var, each times its way
   FixedQueue<Stretch, 4> ended_;
   std::array<Stretch, kMostStretches> stretches_{};
-  std::size_t num_stretches_ = 0;  ///< since construction
+  std::size_t num_stretches_ = 0;  ///< since construction or forget()
   double ln_height_ = kNan;        ///< by the vehicle's speed
   double var_ = kNan;
   HeightReport report_;

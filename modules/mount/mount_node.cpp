@@ -36,7 +36,10 @@ const CameraHeight* MountNode::better_height() const {
   return std::isnan(height.by_vehicle.height_m) ? nullptr : &height.used;
 }
 
-const mount_t* MountNode::update(const GroundOutput& ground, const CameraHeight& stated_height) {
+const mount_t* MountNode::update(const GroundOutput& ground, const CameraHeight& stated_height,
+                                 int camera) {
+  if (camera != camera_) height_.forget();
+  camera_ = camera;
   const bool had_reference = check_.report().reference.has_value();
   const MountStatus before = check_.report().status;
   const HeightStatus height_before = height_.report().status;

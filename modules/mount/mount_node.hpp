@@ -24,9 +24,10 @@ class MountNode {
 
   /// Returns null when the message was taken, else why it was refused.
   [[nodiscard]] const char* take_speed(const vehicle_speed_t& message);
-  /// Takes one ground result and the height of the camera that is stated. Returns the message to
-  /// publish, once a second and when a status changes, and else null.
-  const mount_t* update(const GroundOutput& ground, const CameraHeight& stated_height);
+  /// Takes one ground result, the height of the camera that is stated, and the camera's number
+  /// (GroundNode::num_cameras): another one makes void what was learned of the height. Returns the
+  /// message to publish, once a second and when a status changes, and else null.
+  const mount_t* update(const GroundOutput& ground, const CameraHeight& stated_height, int camera);
   [[nodiscard]] const MountReport& report() const { return check_.report(); }
   [[nodiscard]] const HeightReport& height_report() const { return height_.report(); }
   /// The height to use from the next image on; null while it is the stated one.
@@ -42,6 +43,7 @@ class MountNode {
   std::string state_file_;
   MountCheck check_;
   HeightLearner height_;
+  int camera_ = 0;  ///< whose height is learned
   OneSender speed_sender_;
   mount_t message_{};
   std::int64_t published_us_ = 0;

@@ -102,7 +102,8 @@ class GroundProcess {
 
   void watch_mount(const plumb::GroundOutput& output) {
     const bool alarmed = mount_node_.alarm() != nullptr;
-    const plumb::mount_t* message = mount_node_.update(output, node_.stated_height());
+    const plumb::mount_t* message =
+        mount_node_.update(output, node_.stated_height(), node_.num_cameras());
     if (const plumb::CameraHeight* height = mount_node_.better_height())
       node_.correct_camera_height(*height);
     if (message == nullptr) return;

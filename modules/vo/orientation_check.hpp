@@ -3,8 +3,10 @@
 /// The road is the deepest thing that a camera on a vehicle sees: what is seen below the direction
 /// of travel lies one camera height below it, while houses, trees, trucks and ceilings reach
 /// several camera heights above it. So among the tracks whose depth is known, the distances to the
-/// line of travel are longer on the upper side. Upside down, it is the other way round. Where one
-/// side shows nothing, the other one is the road if its tracks lie in one plane.
+/// line of travel are longer on the upper side. Upside down, it is the other way round, and the
+/// tracks of the upper side have nearly the same distance, as a road's have: on a bare motorway,
+/// what moves along seems to be far below the car. Where one side shows nothing, the other one is
+/// the road if its tracks lie in one plane.
 ///
 /// Each image adds the logarithm of the ratio of both sides to a sum, within limits. The sum proves
 /// the orientation and has to change its sign to disprove it. A camera seldom turns over while it

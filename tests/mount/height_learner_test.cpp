@@ -63,6 +63,18 @@ TEST_F(HeightLearnerTest, AnotherStatedHeightHoldsAtOnceUntilOneIsLearned) {
   EXPECT_EQ(report().used.std_m, 0.02);
 }
 
+TEST_F(HeightLearnerTest, AnotherCameraIsLearnedAnew) {
+  drive(300.0, kUnsure);
+  EXPECT_EQ(report().status, HeightStatus::kLearned);
+  learner_.forget();
+  drive(60.0, {1.2, 0.02});
+  EXPECT_EQ(report().status, HeightStatus::kLearning);
+  EXPECT_EQ(report().used.height_m, 1.2) << "at once, and not at the rate of a learned height";
+  EXPECT_TRUE(std::isnan(report().by_vehicle.height_m));
+  drive(300.0, kUnsure);
+  EXPECT_NEAR(report().by_vehicle.height_m, kTrueHeight_m, 0.01);
+}
+
 TEST_F(HeightLearnerTest, LearnsTheHeight) {
   drive(80.0, kUnsure);
   EXPECT_EQ(report().status, HeightStatus::kLearning);

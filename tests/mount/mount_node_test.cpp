@@ -22,7 +22,7 @@ class MountNodeTest : public testing::Test {
     GroundOutput output = test::straight_on({0.0, 0.0, yaw_deg * kDegree});
     for (double m = 0.0; m < distance_m; m += 0.1 * test::kSpeed_m_s) {
       output.capture_us = now_us_ += 100'000;
-      const mount_t* message = node->update(output, {1.65, 0.01});
+      const mount_t* message = node->update(output, {1.65, 0.01}, 1);
       if (message == nullptr) continue;
       ++num_messages;
       last_ = *message;
@@ -68,6 +68,29 @@ TEST_F(MountNodeTest, FollowsOneSenderOfTheVehicleSpeed) {
   EXPECT_STREQ(take(150'000, 6), "vehicle speed comes from a second sender");
   EXPECT_EQ(take(200'000, 7), nullptr);
   EXPECT_EQ(take(300'000, 8), nullptr) << "it was restarted";
+}
+
+TEST_F(MountNodeTest, WhatIsLearnedOfTheHeightBelongsToOneCamera) {
+  MountNode node(config_);
+  GroundOutput output = test::straight_on({0.0, 0.0, 0.0});
+  output.ego.road_step_heights = 0.1 * test::kSpeed_m_s / 1.4;
+  output.ego.road_step_ln_var = 1e-4;
+  const auto drive_seconds = [&](int seconds, int camera) {
+    for (int i = 0; i < 10 * seconds; ++i) {
+      output.capture_us = now_us_ += 100'000;
+      vehicle_speed_t speed{};
+      speed.utime = now_us_;
+      speed.session = 7;
+      speed.speed_m_s = test::kSpeed_m_s;
+      EXPECT_EQ(node.take_speed(speed), nullptr);
+      node.update(output, {1.65, 0.4}, camera);
+    }
+  };
+  drive_seconds(30, 1);
+  ASSERT_NE(node.better_height(), nullptr);
+  EXPECT_NEAR(node.height_report().by_vehicle.height_m, 1.4, 0.01);
+  drive_seconds(1, 2);
+  EXPECT_EQ(node.better_height(), nullptr) << "another camera sits where it is stated to";
 }
 
 TEST_F(MountNodeTest, AClockThatStepsBackDoesNotSilenceIt) {

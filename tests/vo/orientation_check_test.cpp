@@ -72,7 +72,7 @@ TEST_F(OrientationCheckTest, ARoadUnderAnEmptySkyIsBelow) {
   for (const double up : {1.0, -1.0}) {
     OrientationCheck fresh(500);
     check_ = fresh;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < (up > 0.0 ? 2 : 8); ++i) {
       check_.begin({0.0, 0.01, 1.0});
       show_road(60, up);
       check_.end();
@@ -88,6 +88,26 @@ TEST_F(OrientationCheckTest, LampsOverADarkRoadProveNothing) {
       const double z = 10.0 + k;
       check_.add({0.1, 0.01 - (0.5 + 0.1 * k) / z}, 1.0 / z, 0.05 / z);
     }
+    check_.end();
+  }
+  EXPECT_EQ(check_.verdict(), Orientation::kUnproven);
+}
+
+TEST_F(OrientationCheckTest, WhatMovesAlongBelowTheHorizonProvesNothing) {
+  for (int i = 0; i < 50; ++i) {
+    check_.begin({0.0, 0.01, 1.0});
+    show_walls(120, 3.0);
+    for (int k = 0; k < 80; ++k) check_.add({0.1, 0.1 + 0.002 * k}, 0.005, 0.001);
+    check_.end();
+  }
+  EXPECT_EQ(check_.verdict(), Orientation::kUnproven) << "a bare motorway, seen by compression";
+}
+
+TEST_F(OrientationCheckTest, WallsAreNoRoadAbove) {
+  for (int i = 0; i < 50; ++i) {
+    check_.begin({0.0, 0.01, 1.0});
+    show_walls(120, 9.0);
+    for (int k = 0; k < 80; ++k) check_.add({0.1, 0.1}, 0.005, 0.001);
     check_.end();
   }
   EXPECT_EQ(check_.verdict(), Orientation::kUnproven);
@@ -115,7 +135,7 @@ TEST_F(OrientationCheckTest, AfterALossItIsDisprovedSoon) {
   EXPECT_EQ(check_.verdict(), Orientation::kUpright);
   show_streets(3, -1.0);
   EXPECT_EQ(check_.verdict(), Orientation::kUnproven);
-  show_streets(1, -1.0);
+  show_streets(5, -1.0);
   EXPECT_EQ(check_.verdict(), Orientation::kUpsideDown);
 }
 
@@ -123,7 +143,7 @@ TEST_F(OrientationCheckTest, ADiscontinuityForgets) {
   show_streets(100);
   check_.reset();
   EXPECT_EQ(check_.verdict(), Orientation::kUnproven);
-  show_streets(2, -1.0);
+  show_streets(6, -1.0);
   EXPECT_EQ(check_.verdict(), Orientation::kUpsideDown);
 }
 
