@@ -8,20 +8,25 @@
 namespace plumb {
 namespace {
 
-// Standard deviations of the road's speed by which a single height may differ from it. A speed that
-// is known less well than that is no judge of them.
-constexpr double kMostStds = 2.0;
+// A speed that is known less well than that is no judge of the other cues.
 constexpr double kLargestJudgeStd = 0.08;
+// Standard deviations of the road's speed by which a single height may differ from it, and the same
+// for a cue that has kept to its own deviation for some time: then the pitch behind the road's
+// speed is the one that may be wrong.
+constexpr double kMostStds = 2.0;
+constexpr double kMostStdsOfSteady = 4.0;
+constexpr double kSteadyAfter_s = 0.5;
 
-// A cue is refused from the first of these misfits on, and until it is below the second one.
+// A cue is refused from the first of these ratios on, and until it is below the second one. Of good
+// cues it is 1 to 5.
+constexpr double kMostScatter = 8.0;
+constexpr double kSteadyScatter = 4.0;
+constexpr double kScatterTime_s = 1.5;
+constexpr double kFirstScatterTime_s = 0.4;
 // Without the road's speed, it is forgotten.
-constexpr double kMostMisfit = 1.2;
-constexpr double kGoodMisfit = 0.8;
-constexpr double kMisfitTime_s = 1.5;
-constexpr double kFirstMisfitTime_s = 0.4;
 constexpr double kForgetTime_s = 5.0;
 // What a single height can add, so that one wild height is soon forgotten.
-constexpr double kMostOfOne = 6.0;
+constexpr double kMostOfOne = 40.0;
 
 // Weight of a new image in the running mean of the gap between the road's speed and the filter, and
 // how many standard deviations of the speed it may have.
@@ -37,34 +42,36 @@ bool MotionJudge::judge(double dt_s, Observations* observations) {
   bool any_new = false;
   for (std::size_t i = 0; i < kNumCues; ++i) {
     if (!kCueTable[i].measures_height || i == kCueMotion) continue;
-    const bool was_refused = refused_[i];
+    const bool was_refused = cues_[i].refused;
     if (judges) {
-      judge_cue(i, dt_s, observations);
+      judge_cue(motion, dt_s, &cues_[i], &(*observations)[i].report);
     } else {
-      misfit_[i] *= std::max(0.0, 1.0 - dt_s / kForgetTime_s);
+      cues_[i].scatter *= std::max(0.0, 1.0 - dt_s / kForgetTime_s);
     }
-    refused_[i] = misfit_[i] > (was_refused ? kGoodMisfit : kMostMisfit);
-    CueReport& report = (*observations)[i].report;
-    if (judges && refused_[i] && report.status == CueStatus::kUsed)
-      report.status = CueStatus::kFailed;
-    any_new |= judges && refused_[i] && !was_refused;
+    any_new |= cues_[i].refused && !was_refused;
   }
   return any_new;
 }
 
-/// Holds one cue's height against that of the road's speed.
-void MotionJudge::judge_cue(std::size_t cue, double dt_s, Observations* observations) {
-  const CueReport& motion = (*observations)[kCueMotion].report;
-  CueReport& report = (*observations)[cue].report;
-  if (report.status != CueStatus::kUsed) return;
-  const double apart = std::log(report.height / motion.height);
+/// Holds one cue's height against that of the road's speed, which is smooth.
+void MotionJudge::judge_cue(const CueReport& motion, double dt_s, JudgedCue* cue,
+                            CueReport* report) {
+  if (report->status != CueStatus::kUsed) return;
+  const double apart = std::log(report->height / motion.height);
+  if (cue->judged_s == 0.0) cue->mean = apart;
+  cue->judged_s += dt_s;
+  const double time_s = std::min(kScatterTime_s, kFirstScatterTime_s + cue->judged_s);
+  const double share = std::min(1.0, dt_s / time_s);
+  const double off = apart - cue->mean;
+  const double var = report->height_var / square(report->height);
+  cue->mean += share * off;
+  cue->scatter += share * (std::min(kMostOfOne, (1.0 - share) * square(off) / var) - cue->scatter);
+  cue->refused = cue->scatter > (cue->refused ? kSteadyScatter : kMostScatter);
+  const bool steady = cue->judged_s > kSteadyAfter_s && cue->scatter < kSteadyScatter;
+  const double most_stds = steady ? kMostStdsOfSteady : kMostStds;
   const double motion_var = motion.height_var / square(motion.height);
-  const double var = motion_var + report.height_var / square(report.height);
-  judged_s_[cue] += dt_s;
-  const double time_s = std::min(kMisfitTime_s, kFirstMisfitTime_s + judged_s_[cue]);
-  misfit_[cue] +=
-      std::min(1.0, dt_s / time_s) * (std::min(kMostOfOne, square(apart) / var) - misfit_[cue]);
-  if (square(apart) > square(kMostStds) * motion_var) report.status = CueStatus::kFailed;
+  if (cue->refused || square(apart) > square(most_stds) * motion_var)
+    report->status = CueStatus::kFailed;
 }
 
 void MotionJudge::follow_filter(const Observation& motion, double ln_height) {

@@ -3,9 +3,10 @@
 ///
 /// What is attached to the camera, and texture that compression has smeared, may align better with
 /// another plane than with the road. One such height can be refused when it is far from that of
-/// the road's speed. A cue whose heights scatter about it, or stay to one side of it, by more than
-/// both deviations allow, image after image, states deviations that do not hold on this road, and
-/// is refused altogether.
+/// the road's speed. A cue whose heights scatter by far more than it states, image after image,
+/// says what does not hold on this road, and is refused altogether. The road's speed is smooth, so
+/// that the scatter about it is the cue's; its own error stays the same for some time and does not
+/// count.
 ///
 /// Units:
 ///   Natural logarithms of heights; seconds.
@@ -32,11 +33,16 @@ class MotionJudge {
   void forget_filter() { gap_ = 0.0; }
 
  private:
-  void judge_cue(std::size_t cue, double dt_s, Observations* observations);
+  struct JudgedCue {
+    double judged_s = 0.0;  ///< for so long
+    double mean = 0.0;      ///< ln height over that by the road's speed, running mean
+    double scatter = 0.0;   ///< squared distance from it over the stated variance, running mean
+    bool refused = false;
+  };
 
-  std::array<bool, kNumCues> refused_{};
-  std::array<double, kNumCues> judged_s_{};  // for so long
-  std::array<double, kNumCues> misfit_{};  // running mean of the squared distance over its variance
+  static void judge_cue(const CueReport& motion, double dt_s, JudgedCue* cue, CueReport* report);
+
+  std::array<JudgedCue, kNumCues> cues_{};
   double gap_ = 0.0;      // ln height by the road's speed less the filter's, running mean
   double gap_std_ = 0.0;  // of the road's speed
 };

@@ -82,6 +82,15 @@ void CornerDetector::occupy(const Eigen::Vector2d& px) {
   }
 }
 
+void CornerDetector::exclude(const Eigen::Vector2i& first_px, int size_px) {
+  const int last_i = std::min(mask_width_ - 1, (first_px.x() + size_px - 1) / kMaskStep);
+  const int last_j = std::min(height_px_ / kMaskStep, (first_px.y() + size_px - 1) / kMaskStep);
+  for (int j = first_px.y() / kMaskStep; j <= last_j; ++j) {
+    for (int i = first_px.x() / kMaskStep; i <= last_i; ++i)
+      mask_[to_index(j * mask_width_ + i)] = 1;
+  }
+}
+
 // Computes the products of the gradients in a cell and their sums over the rows of the boxes.
 void CornerDetector::tensor_rows(const ImageView& image, const Cell& c) {
   const int n = c.u1 - c.u0 + 2 * kBoxHalf;

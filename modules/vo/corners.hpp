@@ -30,6 +30,8 @@ class CornerDetector {
   void clear();
   /// Marks the cell and the surroundings of `px` as occupied.
   void occupy(const Eigen::Vector2d& px);
+  /// Excludes a square of `size_px` pixels from the search.
+  void exclude(const Eigen::Vector2i& first_px, int size_px);
   /// Returns the best corner of every free cell, outside the surroundings of others. The cells are
   /// occupied then. The result is valid until the next call.
   const std::vector<Eigen::Vector2d>& detect(const ImageView& image, const CornerOptions& options);

@@ -305,7 +305,8 @@ void Initializer::build_window(const TwoView& views, double distance, LocalMap& 
   const Se3 T_now_world = window[newest].T_cam_world;
   out->cov_prev_cam = motion_covariance(map.fit(T_now_world, 1), previous_pose(map));
   out->is_keyframe = true;
-  out->num_new = map.keyframes.start_tracks(newest, map.newest_image(), map.tracks, window);
+  out->num_new =
+      map.keyframes.start_tracks(newest, map.newest_image(), map.attached, map.tracks, window);
 }
 
 }  // namespace plumb::vo

@@ -137,10 +137,13 @@ void Keyframes::predict_depth(Track& track) const {
   track.prior_std = std::max(0.03, track.rho);
 }
 
-int Keyframes::start_tracks(int slot, const Pyramid& image, TrackTable& tracks,
-                            const Window& window) {
+int Keyframes::start_tracks(int slot, const Pyramid& image, const AttachedRegions& attached,
+                            TrackTable& tracks, const Window& window) {
   detector_.clear();
   for (const int index : tracks.active()) detector_.occupy(0.5 * tracks[index].px);
+  attached.for_each([this](const Eigen::Vector2i& first_px) {
+    detector_.exclude(first_px / 2, AttachedRegions::kCellPx / 2);
+  });
   collect_neighbours(slot, tracks, window);
   // Corners are detected on level 1, whose scale suits the size of the patches. It also takes
   // only a quarter of the time.

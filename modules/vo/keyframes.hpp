@@ -13,6 +13,7 @@
 
 #include "core/camera_model.hpp"
 #include "core/pyramid.hpp"
+#include "modules/vo/attached_regions.hpp"
 #include "modules/vo/corners.hpp"
 #include "modules/vo/track.hpp"
 #include "modules/vo/vo_config.hpp"
@@ -43,9 +44,10 @@ class Keyframes {
   void trim_recent(TrackTable& tracks, Window& window);
   /// Makes the frame in `slot` a keyframe. When there are too many, the oldest one is removed.
   void promote(int slot, const ImageView& image, TrackTable& tracks, Window& window);
-  /// Starts tracks at corners of the keyframe in `slot` where there are none yet. Returns their
-  /// number.
-  int start_tracks(int slot, const Pyramid& image, TrackTable& tracks, const Window& window);
+  /// Starts tracks at corners of the keyframe in `slot` where there are none yet and nothing is
+  /// attached to the camera. Returns their number.
+  int start_tracks(int slot, const Pyramid& image, const AttachedRegions& attached,
+                   TrackTable& tracks, const Window& window);
   /// Returns the number of active tracks when the newest keyframe was made.
   [[nodiscard]] int num_at_keyframe() const { return num_at_keyframe_; }
 

@@ -27,6 +27,7 @@ LocalMap::LocalMap(const VoConfig& config, const CameraModel& camera)
       window(camera.width_px, camera.height_px),
       tracker(camera, track_capacity(config)),
       keyframes(config, camera, track_capacity(config)),
+      attached(camera.width_px, camera.height_px),
       config_(config),
       focal_px_(camera.fx_px, camera.fy_px),
       refiner_(track_capacity(config)),
@@ -57,7 +58,7 @@ int LocalMap::start_reference(std::int64_t seq, const Se3& T_cam_world, const Py
   tracks.clear();
   const int slot = window.add(seq, T_cam_world);
   keyframes.promote(slot, image.level(0), tracks, window);
-  return keyframes.start_tracks(slot, image, tracks, window);
+  return keyframes.start_tracks(slot, image, attached, tracks, window);
 }
 
 int LocalMap::add_frame(std::int64_t seq, const Se3& T_cam_world) {
@@ -92,7 +93,7 @@ Insertion LocalMap::insert(std::int64_t seq, const Se3& T_cam_world, bool refine
   }
   probe.mark("refine");
   if (done.is_keyframe) {
-    done.num_new = keyframes.start_tracks(slot, newest_image(), tracks, window);
+    done.num_new = keyframes.start_tracks(slot, newest_image(), attached, tracks, window);
     probe.mark("detect");
   }
   return done;

@@ -16,6 +16,7 @@
 #include "core/camera_model.hpp"
 #include "core/pyramid.hpp"
 #include "core/stage_probe.hpp"
+#include "modules/vo/attached_regions.hpp"
 #include "modules/vo/frame_time.hpp"
 #include "modules/vo/keyframes.hpp"
 #include "modules/vo/pose.hpp"
@@ -86,6 +87,7 @@ class LocalMap {
   Window window;
   Tracker tracker;
   Keyframes keyframes;
+  AttachedRegions attached;
 
  private:
   VoConfig config_;

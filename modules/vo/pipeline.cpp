@@ -1,5 +1,8 @@
 #include "modules/vo/pipeline.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "core/percentile.hpp"
 #include "modules/vo/image_health.hpp"
 #include "modules/vo/inverse_depth.hpp"
@@ -18,6 +21,12 @@ constexpr double kPoorInlierRatio = 0.6;
 constexpr double kMinTurnedTracksRatio = 0.6;
 constexpr int kPoseIterations = 8;
 constexpr int kAnnealingIterations = 4;
+// A track that may be attached must have been seen in so many images.
+constexpr int kMinAttachedImages = 5;
+// Inverse depth by which the epipolar line is begun, and the slope of a ray below the horizon under
+// which a road that passes is seen to move.
+constexpr double kSmallRho = 1e-3;
+constexpr double kNearRoadSlope = 0.1;
 
 }  // namespace
 
@@ -128,12 +137,46 @@ void Pipeline::track(StageProbe& probe) {
     initializer_.restart(time_, map_, motion_, &out_, probe);
     return;
   }
+  observe_attached(pose.T_cam_world);
   const ZeroMotion kind = zero_motion_.judge(map_, pose.T_cam_world);
   if (kind == ZeroMotion::kNone) {
     handle_motion(pose, probe);
   } else {
     handle_zero_motion(pose, kind, probe);
   }
+}
+
+/// Shows the tracks to the judge of what is attached to the camera, and frees those that are. A
+/// track is held against every depth from infinity on: its place in its host's image, turned by the
+/// camera's rotation, and from there on along the epipolar line.
+void Pipeline::observe_attached(const Se3& T_cam_world) {
+  std::array<Se3, kMaxFrames> T_cam_slot;
+  for (const int slot : map_.window.order()) {
+    T_cam_slot[static_cast<std::size_t>(slot)] =
+        T_cam_world * map_.window[slot].T_cam_world.inverse();
+  }
+  for (const int index : map_.tracks.active()) {
+    const Track& track = map_.tracks[index];
+    if (track.num_images < kMinAttachedImages) continue;
+    const Se3& T_cam_host = T_cam_slot[static_cast<std::size_t>(track.host)];
+    const Eigen::Vector3d ray = T_cam_host.R * track.host_xy.homogeneous();
+    if (!(ray.z() > 0.0)) continue;
+    const Eigen::Vector2d far_px = camera_.project(ray);
+    const Eigen::Vector2d along =
+        (camera_.project(ray + kSmallRho * T_cam_host.t) - far_px).stableNormalized();
+    const Eigen::Vector2d e = track.px - far_px;
+    TrackMotion motion;
+    motion.px = track.px;
+    motion.moved_px = (track.px - track.host_px).norm();
+    motion.off_px = (e - std::max(0.0, e.dot(along)) * along).norm();
+    motion.must_move = road_.sees_road() && track.xy.y() - road_.horizon_y() > kNearRoadSlope;
+    map_.attached.add(motion);
+  }
+  map_.attached.end_image(time_.dt_s);
+  map_.tracks.sift_active([this](int index) {
+    return map_.attached.covers(map_.tracks[index].px) ? TrackTable::Fate::kFree
+                                                       : TrackTable::Fate::kStay;
+  });
 }
 
 /// Searches the tracks in the newest image and fits its pose to them. The first fit gives the
@@ -249,6 +292,7 @@ void Pipeline::report_fit(const PoseFit& pose) {
 /// Reports motion, window and road points, from the poses as they are refined now.
 void Pipeline::report(const VoInput& input) {
   const Window& window = map_.window;
+  out_.attached_share = map_.attached.share();
   if (window.num_history() > 0) {
     const Se3 T_cam_world = map_.last_pose();
     report_motion(T_cam_world);
@@ -306,6 +350,10 @@ void Pipeline::judge_orientation() {
     out_.road_height = out_.road_height_std = kNan;
   } else if (now == Orientation::kUnproven) {
     out_.reason = VoReason::kOrientationUnproven;
+    // Where neither road nor houses are seen, what does not move may drive along.
+    const bool stands =
+        out_.status == VoStatus::kStandstill || out_.status == VoStatus::kRotationOnly;
+    if (stands) out_.status = VoStatus::kInitializing;
   }
 }
 

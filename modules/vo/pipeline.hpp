@@ -57,6 +57,7 @@ class Pipeline {
   void report_motion(const Se3& T_cam_world);
   void judge_orientation();
   void observe_orientation();
+  void observe_attached(const Se3& T_cam_world);
 
   VoConfig config_;
   CameraModel camera_;

@@ -133,6 +133,7 @@ struct VoOutput {
   double median_flow_px = 0.0;      ///< from the previous image
   double median_parallax_px = 0.0;  ///< rotation-compensated, from the last keyframe
   double rms_residual_px = 0.0;     ///< of the inliers
+  double attached_share = 0.0;      ///< of the image: attached to the camera, and not searched
 
   FixedVector<RoadPoint, kMaxRoadPoints> road_points;
 

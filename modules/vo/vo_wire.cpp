@@ -111,7 +111,8 @@ const char* summary_from_wire(const vo_motion_t& message, VoOutput* output) {
   if (message.num_tracked < 0 || message.num_inliers < 0 || message.num_new < 0)
     return "VO motion: a feature count is negative";
   if (!std::isfinite(message.median_flow_px) || !std::isfinite(message.median_parallax_px) ||
-      !std::isfinite(message.rms_residual_px)) {
+      !std::isfinite(message.rms_residual_px) || !(message.attached_share >= 0.0F) ||
+      !(message.attached_share <= 1.0F)) {
     return "VO motion: the tracking summary is not finite";
   }
   output->num_tracked = message.num_tracked;
@@ -121,6 +122,7 @@ const char* summary_from_wire(const vo_motion_t& message, VoOutput* output) {
   output->median_flow_px = static_cast<double>(message.median_flow_px);
   output->median_parallax_px = static_cast<double>(message.median_parallax_px);
   output->rms_residual_px = static_cast<double>(message.rms_residual_px);
+  output->attached_share = static_cast<double>(message.attached_share);
   return nullptr;
 }
 
@@ -150,6 +152,7 @@ void to_wire(const VoOutput& output, vo_motion_t* message) {
   message->median_flow_px = static_cast<float>(output.median_flow_px);
   message->median_parallax_px = static_cast<float>(output.median_parallax_px);
   message->rms_residual_px = static_cast<float>(output.rms_residual_px);
+  message->attached_share = static_cast<float>(output.attached_share);
   points_to_wire(output, message);
   message->road_height = output.road_height;
   message->road_height_std = output.road_height_std;

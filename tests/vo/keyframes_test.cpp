@@ -68,8 +68,8 @@ TEST_F(KeyframesTest, ARotationHasNoParallax) {
 
 TEST_F(KeyframesTest, TracksStartOnlyWhereThereAreNone) {
   const int slot = map().window.newest();
-  const int num_more =
-      map().keyframes.start_tracks(slot, map().last_image(), map().tracks, map().window);
+  const int num_more = map().keyframes.start_tracks(slot, map().last_image(), map().attached,
+                                                    map().tracks, map().window);
   EXPECT_LT(num_more, num_ / 10);
   std::vector<Eigen::Vector2d> px;
   for (const int index : map().tracks.active()) px.push_back(map().tracks[index].px);
@@ -90,8 +90,8 @@ TEST_F(KeyframesTest, ANewTrackGetsTheDepthOfItsNeighbours) {
   map().tracks.sift_active(
       [](int index) { return index % 2 == 0 ? TrackTable::Fate::kStay : TrackTable::Fate::kFree; });
   const int slot = add_keyframe(1, Se3{});
-  const int num_new =
-      map().keyframes.start_tracks(slot, map().last_image(), map().tracks, map().window);
+  const int num_new = map().keyframes.start_tracks(slot, map().last_image(), map().attached,
+                                                   map().tracks, map().window);
   ASSERT_GT(num_new, num_ / 4);
   for (const int index : map().tracks.active()) {
     const Track& track = map().tracks[index];

@@ -42,6 +42,7 @@ inline VoOutput sample_vo_output() {
   o.median_flow_px = 12.5;
   o.median_parallax_px = 6.25;
   o.rms_residual_px = 0.375;
+  o.attached_share = 0.125;
   for (std::size_t i = 0; i < kMaxRoadPoints; ++i) {
     const auto k = static_cast<float>(i);
     (void)o.road_points.push_back({{0.1F * k, 1.65F / 3.0F, 5.0F + k},

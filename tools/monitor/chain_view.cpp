@@ -66,6 +66,7 @@ json vo_json(const vo_motion_t& m) {
           {"median_flow_px", m.median_flow_px},
           {"median_parallax_px", m.median_parallax_px},
           {"rms_residual_px", m.rms_residual_px},
+          {"attached_share", m.attached_share},
           {"points", std::move(points)}};
 }
 

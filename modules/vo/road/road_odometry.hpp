@@ -34,6 +34,8 @@ class RoadOdometry {
 
   /// The road is seen, below the camera.
   [[nodiscard]] bool sees_road() const { return sees_road_; }
+  /// y/z of the direction in which the road vanishes.
+  [[nodiscard]] double horizon_y() const { return motion_.direction().y(); }
 
  private:
   struct Pose {

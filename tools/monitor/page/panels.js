@@ -92,6 +92,7 @@ export function showEstimators(frame, hello) {
     ['that agree', number(vo?.num_inliers, 0)],
     ['Road points', vo ? String(vo.points.length / 3) : '–'],
     ['Residual', `${number(vo?.rms_residual_px, 2)} px`],
+    ['Attached to the camera', `${number(100 * vo?.attached_share, 1)} % of the image`],
     ['Median flow', `${number(vo?.median_flow_px, 1)} px`],
     ['Scale epoch', number(vo?.scale_epoch, 0)],
     ['Yaw rate', `${number(ego ? ego.rate[2] * DEGREES : null, 2)} °/s`],

@@ -21,6 +21,7 @@ void add_vo(const vo_motion_t& vo, bool holds, CsvRow* row) {
   row->add("median_flow_px", static_cast<double>(vo.median_flow_px), holds);
   row->add("median_parallax_px", static_cast<double>(vo.median_parallax_px), holds);
   row->add("rms_residual_px", static_cast<double>(vo.rms_residual_px), holds);
+  row->add("attached_share", static_cast<double>(vo.attached_share), holds);
   const char* axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) row->add(format("vo_t_%s", axes[i]), vo.t_prev_cam[i], holds);
 }
