@@ -15,6 +15,10 @@ const cv::Scalar kHorizonColour(60, 160, 255);
 const cv::Scalar kPathColour(255, 200, 80);
 const cv::Scalar kObjectColour(90, 90, 255);
 const cv::Scalar kPredictedColour(240, 150, 230);
+const cv::Scalar kStaticColour(255, 184, 168);
+const cv::Scalar kMovingColour(255, 77, 255);
+const cv::Scalar kAttachedColour(0, 92, 255);
+const cv::Scalar kUndecidedColour(177, 165, 154);
 constexpr double kNearest_m = 4.0;
 constexpr double kNearestPoint_m = 0.5;
 constexpr double kWidestRatio =
@@ -145,6 +149,28 @@ void label_objects(const Canvas& canvas, const RoadPlane& plane, std::vector<Obj
   }
 }
 
+/// Kinds differ in shape as well as in colour: dots, crosses, squares and small dots.
+void draw_feature(const Canvas& canvas, const Feature& feature) {
+  const cv::Point2d at = to_point(feature.px.cast<double>());
+  const int unit = canvas.style.line_width;
+  cv::Mat& picture = *canvas.picture;
+  switch (feature.kind) {
+    case FeatureKind::kStatic:
+      cv::circle(picture, at, unit, kStaticColour, cv::FILLED, cv::LINE_AA);
+      break;
+    case FeatureKind::kMoving:
+      cv::drawMarker(picture, at, kMovingColour, cv::MARKER_TILTED_CROSS, 5 * unit, unit,
+                     cv::LINE_AA);
+      break;
+    case FeatureKind::kAttached:
+      cv::drawMarker(picture, at, kAttachedColour, cv::MARKER_SQUARE, 5 * unit, unit, cv::LINE_AA);
+      break;
+    case FeatureKind::kUndecided:
+      cv::circle(picture, at, (unit + 1) / 2, kUndecidedColour, cv::FILLED, cv::LINE_AA);
+      break;
+  }
+}
+
 /// Where the path is drawn, in the upper right corner.
 cv::Rect path_box(const cv::Mat& picture) {
   const int size = std::min(picture.rows * 2 / 5, picture.cols / 5), margin = size / 16;
@@ -190,6 +216,7 @@ cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera, const Frame
   LabelPlacer labels(&picture, style);
   const bool has_path = figures.path_m.size() > 1;
   if (has_path) labels.reserve(path_box(picture));
+  for (const Feature& feature : figures.features) draw_feature(canvas, feature);
   if (figures.plane) {
     draw_road(canvas, *figures.plane);
     for (const ObjectFigure& object : figures.objects) draw_object(canvas, *figures.plane, object);
@@ -199,13 +226,18 @@ cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera, const Frame
   if (has_path) draw_path(canvas, figures.path_m);
   std::vector<StripItem> words;
   for (const std::string& line : figures.lines) words.push_back({line, false, {}});
-  return with_strip(picture, style,
-                    {words,
-                     {{"road grid", true, kRoadColour},
-                      {"horizon", true, kHorizonColour},
-                      {"object measured", true, kObjectColour},
-                      {"object predicted", true, kPredictedColour},
-                      {"path from above", true, kPathColour}}});
+  std::vector<StripItem> key = {{"road grid", true, kRoadColour},
+                                {"horizon", true, kHorizonColour},
+                                {"object measured", true, kObjectColour},
+                                {"object predicted", true, kPredictedColour},
+                                {"path from above", true, kPathColour}};
+  if (!figures.features.empty()) {
+    key.push_back({"feature static", true, kStaticColour});
+    key.push_back({"moving", true, kMovingColour});
+    key.push_back({"attached", true, kAttachedColour});
+    key.push_back({"undecided", true, kUndecidedColour});
+  }
+  return with_strip(picture, style, {words, key});
 }
 
 }  // namespace plumb

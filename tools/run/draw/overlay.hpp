@@ -1,4 +1,4 @@
-/// Draws the results for a frame onto it: road grid, horizon, objects, figures and path.
+/// Draws the results for a frame onto it: road grid, horizon, objects, features, figures and path.
 ///
 /// Frames:
 ///   cam: x right, y down, z forward. The plane's normal points DOWN: n . X = h.
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/camera_model.hpp"
+#include "modules/vo/vo.hpp"
 
 namespace plumb {
 
@@ -32,6 +33,7 @@ struct FrameFigures {
   std::optional<RoadPlane> plane;       ///< absent while it is not valid
   std::vector<Eigen::Vector2d> path_m;  ///< (x right, z forward) of the world frame, oldest first
   std::vector<ObjectFigure> objects;    ///< drawn where the plane is valid
+  std::vector<Feature> features;        ///< the key names their kinds when there are any
   std::vector<std::string> lines;       ///< text, top to bottom
 };
 
