@@ -19,7 +19,7 @@ CameraModel kitti_camera() {
 /// Returns a mask that is 255 where drawing the object changes the picture.
 cv::Mat drawn(const ObjectFigure& object) {
   FrameFigures figures;
-  figures.plane = RoadPlane{Eigen::Vector3d::UnitY(), 1.65};
+  figures.plane = PlaneFigure{Eigen::Vector3d::UnitY(), 1.65};
   const cv::Mat grey(kHeight_px, kWidth_px, CV_8U, cv::Scalar(128));
   const cv::Mat without = draw_overlay(grey, kitti_camera(), figures);
   figures.objects = {object};

@@ -30,7 +30,7 @@ FrameFigures read_frame(const CsvTable& table, std::size_t row) {
   FrameFigures figures;
   const auto n1 = table.number(row, "n1"), n2 = table.number(row, "n2"),
              n3 = table.number(row, "n3"), height = table.number(row, "height_m");
-  if (n1 && n2 && n3 && height) figures.plane = RoadPlane{{*n1, *n2, *n3}, *height};
+  if (n1 && n2 && n3 && height) figures.plane = PlaneFigure{{*n1, *n2, *n3}, *height};
   figures.lines = {
       format("frame %s, vo %s, plane %s, motion %s", text_of(table, row, "seq").c_str(),
              text_of(table, row, "vo_status").c_str(), text_of(table, row, "plane_status").c_str(),

@@ -29,7 +29,7 @@ constexpr double kHalfWidth_m = 3.6;
 cv::Point2d to_point(const Eigen::Vector2d& px) { return {px.x(), px.y()}; }
 
 /// Point on the plane `right_m` to the right of and `ahead_m` ahead of the camera.
-Eigen::Vector3d on_road(const RoadPlane& plane, double right_m, double ahead_m) {
+Eigen::Vector3d on_road(const PlaneFigure& plane, double right_m, double ahead_m) {
   const Eigen::Vector3d& n = plane.normal_cam;
   const double down_m = (plane.height_m - n.x() * right_m - n.z() * ahead_m) / n.y();
   return {right_m, down_m, ahead_m};
@@ -53,7 +53,7 @@ void draw_road_line(const Canvas& canvas, const Eigen::Vector3d& from, const Eig
   }
 }
 
-void draw_road(const Canvas& canvas, const RoadPlane& plane) {
+void draw_road(const Canvas& canvas, const PlaneFigure& plane) {
   for (double right = -kHalfWidth_m; right <= kHalfWidth_m + 0.1; right += 1.8) {
     draw_road_line(canvas, on_road(plane, right, kNearest_m), on_road(plane, right, kFarthest_m));
   }
@@ -71,7 +71,7 @@ void draw_road(const Canvas& canvas, const RoadPlane& plane) {
 }
 
 /// Distances beside the grid; those that say most come first.
-void label_road(const Canvas& canvas, const RoadPlane& plane, LabelPlacer* labels) {
+void label_road(const Canvas& canvas, const PlaneFigure& plane, LabelPlacer* labels) {
   for (const int ahead : {10, 20, 40, 5, 30, 15}) {
     const cv::Point2d end = to_point(canvas.camera.project(on_road(plane, kHalfWidth_m, ahead)));
     labels->place(std::to_string(ahead) + " m", end, kRoadColour);
@@ -79,7 +79,7 @@ void label_road(const Canvas& canvas, const RoadPlane& plane, LabelPlacer* label
 }
 
 /// Corners in cam: the underside, then the top, both in order around the box.
-std::array<Eigen::Vector3d, 8> corners_of(const ObjectFigure& object, const RoadPlane& plane) {
+std::array<Eigen::Vector3d, 8> corners_of(const ObjectFigure& object, const PlaneFigure& plane) {
   const Eigen::Vector3d& down = plane.normal_cam;
   const Eigen::Vector3d ahead =
       (Eigen::Vector3d::UnitZ() - down.z() * down).normalized();  // optical axis, along the road
@@ -119,7 +119,7 @@ void draw_edge(const Canvas& canvas, const Eigen::Vector3d& from, const Eigen::V
   }
 }
 
-void draw_object(const Canvas& canvas, const RoadPlane& plane, const ObjectFigure& object) {
+void draw_object(const Canvas& canvas, const PlaneFigure& plane, const ObjectFigure& object) {
   const std::array<Eigen::Vector3d, 8> corners = corners_of(object, plane);
   const cv::Scalar& colour = object.measured ? kObjectColour : kPredictedColour;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -131,8 +131,8 @@ void draw_object(const Canvas& canvas, const RoadPlane& plane, const ObjectFigur
 }
 
 /// Labels the near objects first: where there is no room, it is the far ones that go without.
-void label_objects(const Canvas& canvas, const RoadPlane& plane, std::vector<ObjectFigure> objects,
-                   LabelPlacer* labels) {
+void label_objects(const Canvas& canvas, const PlaneFigure& plane,
+                   std::vector<ObjectFigure> objects, LabelPlacer* labels) {
   std::sort(objects.begin(), objects.end(), [](const ObjectFigure& a, const ObjectFigure& b) {
     return a.place_m.squaredNorm() < b.place_m.squaredNorm();
   });
@@ -204,7 +204,7 @@ void draw_path(const Canvas& canvas, const std::vector<Eigen::Vector2d>& path_m)
 
 }  // namespace
 
-double horizon_row_px(const CameraModel& camera, const RoadPlane& plane) {
+double horizon_row_px(const CameraModel& camera, const PlaneFigure& plane) {
   return camera.cy_px - camera.fy_px * plane.normal_cam.z() / plane.normal_cam.y();
 }
 

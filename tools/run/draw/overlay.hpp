@@ -15,7 +15,7 @@
 
 namespace plumb {
 
-struct RoadPlane {
+struct PlaneFigure {
   Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< unit, down
   double height_m = 0.0;
 };
@@ -30,7 +30,7 @@ struct ObjectFigure {
 };
 
 struct FrameFigures {
-  std::optional<RoadPlane> plane;       ///< absent while it is not valid
+  std::optional<PlaneFigure> plane;     ///< absent while it is not valid
   std::vector<Eigen::Vector2d> path_m;  ///< (x right, z forward) of the world frame, oldest first
   std::vector<ObjectFigure> objects;    ///< drawn where the plane is valid
   std::vector<Feature> features;        ///< the key names their kinds when there are any
@@ -43,6 +43,6 @@ struct FrameFigures {
                                    const FrameFigures& figures);
 
 /// Pixel where the plane's vanishing line crosses the column through the principal point.
-[[nodiscard]] double horizon_row_px(const CameraModel& camera, const RoadPlane& plane);
+[[nodiscard]] double horizon_row_px(const CameraModel& camera, const PlaneFigure& plane);
 
 }  // namespace plumb
