@@ -17,13 +17,13 @@ export const LAYERS = [
     hint: 'Boxes of the detector.' },
   { id: 'objects', key: '6', name: 'Objects', colour: '#ff6b81', mark: 'line',
     hint: 'Objects on the road; dashed while they are predicted.' },
-  { id: 'static', key: '7', name: 'Static', colour: '#a8b8ff', mark: 'dot',
+  { id: 'static', key: '7', name: 'Static features', colour: '#a8b8ff', mark: 'dot',
     hint: 'Features of known depth that stand still in the world.' },
-  { id: 'moving', key: '8', name: 'Moving', colour: '#ff4dff', mark: 'cross',
+  { id: 'moving', key: '8', name: 'Moving features', colour: '#ff4dff', mark: 'cross',
     hint: 'Features that no point of the world explains: they move, or were mistaken for others.' },
-  { id: 'attached', key: '9', name: 'Attached', colour: '#ff5c00', mark: 'square',
+  { id: 'attached', key: '9', name: 'Attached features', colour: '#ff5c00', mark: 'square',
     hint: 'Features that stay in their place in the image while the camera turns.' },
-  { id: 'undecided', key: '0', name: 'Undecided', colour: '#9aa5b1', mark: 'speck',
+  { id: 'undecided', key: '0', name: 'Undecided features', colour: '#9aa5b1', mark: 'speck',
     hint: 'Features that are new or of unknown depth, and all of them while the motion is not known.' },
 ];
 const COLOUR = Object.fromEntries(LAYERS.map((layer) => [layer.id, layer.colour]));
