@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/percentile.hpp"
+#include "modules/vo/features.hpp"
 #include "modules/vo/image_health.hpp"
 #include "modules/vo/inverse_depth.hpp"
 #include "modules/vo/road_points.hpp"
@@ -74,6 +75,7 @@ const VoOutput& Pipeline::update(const VoInput& input, StageProbe& probe) {
   road_.update(input.image, bad == VoReason::kNone, time_.dt_s, &out_);
   probe.mark("road");
   judge_orientation();
+  if (bad == VoReason::kNone) report_features();
   probe.mark("output");
   return out_;
 }
@@ -132,6 +134,8 @@ void Pipeline::coast(VoReason reason) {
 void Pipeline::track(StageProbe& probe) {
   const PoseFit pose = localize(probe);
   report_fit(pose);
+  // The outliers are still among the tracks.
+  collect_features(map_.tracks, map_.window, pose.T_cam_world, camera_, &out_.features);
   if (pose.num_inliers < kMinInliers || pose.inlier_ratio() < kMinInlierRatio) {
     zero_motion_.reset();
     initializer_.restart(time_, map_, motion_, &out_, probe);
@@ -355,6 +359,24 @@ void Pipeline::judge_orientation() {
         out_.status == VoStatus::kStandstill || out_.status == VoStatus::kRotationOnly;
     if (stands) out_.status = VoStatus::kInitializing;
   }
+}
+
+/// Adds the features that are new in this image, and the middles of the cells that are attached to
+/// the camera, where no feature is tracked any more. No other kind is known while the motion is not,
+/// or is not the features'.
+void Pipeline::report_features() {
+  const bool knows_motion = (out_.status == VoStatus::kOk || out_.status == VoStatus::kStandstill ||
+                             out_.status == VoStatus::kRotationOnly) &&
+                            out_.reason != VoReason::kRoadMotion;
+  if (!knows_motion) out_.features.clear();
+  const auto num_new = static_cast<std::size_t>(out_.num_new);
+  const std::size_t num_active = map_.tracks.active().size();
+  add_undecided_features(map_.tracks, out_.features.empty() ? num_active : num_new, &out_.features);
+  map_.attached.for_each([this](const Eigen::Vector2i& first_px) {
+    const Eigen::Vector2f middle_px =
+        first_px.cast<float>().array() + 0.5F * static_cast<float>(AttachedRegions::kCellPx);
+    static_cast<void>(out_.features.push_back({middle_px, FeatureKind::kAttached}));
+  });
 }
 
 /// Shows the tracks to the judge of the orientation. The direction of travel is that over the whole

@@ -12,6 +12,7 @@
 ///   5. RoadOdometry replaces the translation when the road shows another one.
 ///   6. judge_orientation() withholds motions of a camera that is upside down, and marks them while
 ///      that is not known.
+///   7. report_features() names the features of the image by their kind.
 ///
 /// Frames:
 ///   world: cam of the first image.  cam: cam of the newest image.
@@ -56,6 +57,7 @@ class Pipeline {
   void report(const VoInput& input);
   void report_motion(const Se3& T_cam_world);
   void judge_orientation();
+  void report_features();
   void observe_orientation();
   void observe_attached(const Se3& T_cam_world);
 

@@ -34,6 +34,7 @@ namespace plumb {
 
 inline constexpr std::size_t kMaxRoadPoints = 384;
 inline constexpr std::size_t kMaxWindowPoses = 12;
+inline constexpr std::size_t kMaxFeatures = 1000;
 
 /// The numbers are those of vo_motion_t.STATUS_*, which explains them.
 enum class VoStatus : std::int8_t {
@@ -78,6 +79,14 @@ enum class VoReason : std::int8_t {
   kRoadMotion = 28,
 };
 
+/// The numbers are those of vo_motion_t.FEATURE_*, which explains them.
+enum class FeatureKind : std::int8_t {
+  kUndecided = 0,
+  kStatic = 1,
+  kMoving = 2,
+  kAttached = 3,
+};
+
 struct VoInput {
   std::int64_t capture_us = 0;  ///< mid-exposure; handed on and not used
   std::int64_t seq = 0;         ///< increases by one per captured frame
@@ -104,6 +113,12 @@ struct RoadPoint {
   Eigen::Vector2f px = Eigen::Vector2f::Zero();     ///< position in the newest image
   float rel_std = 0.0F;                             ///< standard deviation of ln depth
   std::int16_t num_obs = 0;                         ///< number of images that saw the point
+};
+
+/// A feature in the newest image.
+struct Feature {
+  Eigen::Vector2f px = Eigen::Vector2f::Zero();
+  FeatureKind kind = FeatureKind::kUndecided;
 };
 
 struct VoOutput {
@@ -136,6 +151,7 @@ struct VoOutput {
   double attached_share = 0.0;      ///< of the image: attached to the camera, and not searched
 
   FixedVector<RoadPoint, kMaxRoadPoints> road_points;
+  FixedVector<Feature, kMaxFeatures> features;
 
   /// [vo] Height of the camera above the road, by the speed at which the road passes; NaN while
   /// that is not seen.

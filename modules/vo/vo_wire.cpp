@@ -45,6 +45,11 @@ static_assert(same(VoReason::kImplausible, vo_motion_t::REASON_IMPLAUSIBLE));
 static_assert(same(VoReason::kCalibrationDoubted, vo_motion_t::REASON_CALIBRATION_DOUBTED));
 static_assert(same(VoReason::kOrientationUnproven, vo_motion_t::REASON_ORIENTATION_UNPROVEN));
 static_assert(same(VoReason::kRoadMotion, vo_motion_t::REASON_ROAD_MOTION));
+static_assert(same(FeatureKind::kUndecided, vo_motion_t::FEATURE_UNDECIDED));
+static_assert(same(FeatureKind::kStatic, vo_motion_t::FEATURE_STATIC));
+static_assert(same(FeatureKind::kMoving, vo_motion_t::FEATURE_MOVING));
+static_assert(same(FeatureKind::kAttached, vo_motion_t::FEATURE_ATTACHED));
+static_assert(sizeof(vo_motion_t::features_kind) == kMaxFeatures);
 static_assert(sizeof(vo_motion_t::road_points_cam) / sizeof(vo_motion_t::road_points_cam[0]) ==
               kMaxRoadPoints);
 static_assert(sizeof(vo_motion_t::window_seq) / sizeof(vo_motion_t::window_seq[0]) ==
@@ -68,6 +73,15 @@ void points_to_wire(const VoOutput& output, vo_motion_t* message) {
     for (int k = 0; k < 2; ++k) message->road_points_px[i][k] = point.px[k];
     message->road_points_rel_std[i] = point.rel_std;
     message->road_points_num_obs[i] = point.num_obs;
+  }
+}
+
+void features_to_wire(const VoOutput& output, vo_motion_t* message) {
+  message->num_features = static_cast<std::int16_t>(output.features.size());
+  for (std::size_t i = 0; i < output.features.size(); ++i) {
+    const Feature& feature = output.features[i];
+    for (int k = 0; k < 2; ++k) message->features_px[i][k] = feature.px[k];
+    message->features_kind[i] = static_cast<std::int8_t>(feature.kind);
   }
 }
 
@@ -103,6 +117,23 @@ const char* points_from_wire(const vo_motion_t& message, VoOutput* output) {
                        std::isfinite(point.rel_std) && point.rel_std >= 0.0F && point.num_obs >= 0;
     if (!valid || !output->road_points.push_back(point))
       return "VO motion: a road point is not a point before the camera";
+  }
+  return nullptr;
+}
+
+const char* features_from_wire(const vo_motion_t& message, VoOutput* output) {
+  output->features.clear();
+  if (message.num_features < 0 || message.num_features > static_cast<int>(kMaxFeatures))
+    return "VO motion: number of features is out of range";
+  for (std::size_t i = 0; i < static_cast<std::size_t>(message.num_features); ++i) {
+    Feature feature;
+    feature.px = Eigen::Vector2f(message.features_px[i][0], message.features_px[i][1]);
+    feature.kind = static_cast<FeatureKind>(message.features_kind[i]);
+    const bool valid = feature.px.allFinite() &&
+                       message.features_kind[i] >= vo_motion_t::FEATURE_UNDECIDED &&
+                       message.features_kind[i] <= vo_motion_t::FEATURE_ATTACHED;
+    if (!valid || !output->features.push_back(feature))
+      return "VO motion: a feature has no place in the image or no known kind";
   }
   return nullptr;
 }
@@ -154,6 +185,7 @@ void to_wire(const VoOutput& output, vo_motion_t* message) {
   message->rms_residual_px = static_cast<float>(output.rms_residual_px);
   message->attached_share = static_cast<float>(output.attached_share);
   points_to_wire(output, message);
+  features_to_wire(output, message);
   message->road_height = output.road_height;
   message->road_height_std = output.road_height_std;
 }
@@ -193,6 +225,7 @@ const char* from_wire(const vo_motion_t& message, VoOutput* output) {
     return "VO motion: the covariance is not a covariance";
   if (const char* why = window_from_wire(message, output)) return why;
   if (const char* why = summary_from_wire(message, output)) return why;
+  if (const char* why = features_from_wire(message, output)) return why;
   return points_from_wire(message, output);
 }
 

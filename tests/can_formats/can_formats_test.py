@@ -74,7 +74,10 @@ class CanFormatsTest(unittest.TestCase):
     def test_arxml_has_the_bits_of_all_frames_without_multiplexing(self):
         plain = [frame for frame in self.dbc.frames if not frame.is_multiplexed]
         self.assertEqual(len(plain), len(self.dbc.frames) - 3)
-        self.compare('arxml', FIELDS, plain)
+        arxml, _ = self.compare('arxml', FIELDS, plain)
+        for frame in arxml.frames:
+            bits = [bit for signal in frame.signals for bit in range(signal.start_bit, signal.start_bit + signal.size)]
+            self.assertEqual(len(bits), len(set(bits)), f'{frame.name}: signals lie over one another')
 
     def program(self):
         """C that prints raw value, physical value and availability of every signal of each frame."""

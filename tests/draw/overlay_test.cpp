@@ -19,7 +19,7 @@ CameraModel kitti_camera() {
 /// Returns a mask that is 255 where drawing the object changes the picture.
 cv::Mat drawn(const ObjectFigure& object) {
   FrameFigures figures;
-  figures.plane = RoadPlane{Eigen::Vector3d::UnitY(), 1.65};
+  figures.plane = PlaneFigure{Eigen::Vector3d::UnitY(), 1.65};
   const cv::Mat grey(kHeight_px, kWidth_px, CV_8U, cv::Scalar(128));
   const cv::Mat without = draw_overlay(grey, kitti_camera(), figures);
   figures.objects = {object};
@@ -63,6 +63,26 @@ TEST(Overlay, CutsAnObjectBesideTheCameraAtTheBorder) {
 
 TEST(Overlay, LeavesOutWhatLiesBehind) {
   EXPECT_EQ(cv::countNonZero(drawn({{-5.0, 0.0}, 0.0, {4.0, 1.6, 1.5}, true, "car"})), 0);
+}
+
+TEST(Overlay, DrawsFeaturesByKindAndNamesTheKinds) {
+  FrameFigures figures;
+  const cv::Mat grey(kHeight_px, kWidth_px, CV_8U, cv::Scalar(128));
+  const int height = draw_overlay(grey, kitti_camera(), figures).rows;
+  for (int kind = 0; kind < 4; ++kind) {
+    figures.features.push_back(
+        {{100.0F + 200.0F * static_cast<float>(kind), 100.0F}, static_cast<FeatureKind>(kind)});
+  }
+  const cv::Mat picture = draw_overlay(grey, kitti_camera(), figures);
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 100), cv::Vec3b(177, 165, 154));
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 300), cv::Vec3b(255, 184, 168));
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 500), cv::Vec3b(255, 77, 255));
+  EXPECT_EQ(picture.at<cv::Vec3b>(100, 700), cv::Vec3b(128, 128, 128)) << "the square is open";
+  cv::Mat attached;
+  cv::inRange(picture, cv::Scalar(0, 92, 255), cv::Scalar(0, 92, 255), attached);
+  EXPECT_GT(cv::countNonZero(attached(cv::Rect(690, 90, 20, 20))), 8);
+  EXPECT_GT(cv::countNonZero(attached.rowRange(kHeight_px, picture.rows)), 8) << "the key";
+  EXPECT_GE(picture.rows, height);
 }
 
 TEST(Overlay, StandsAboveAStripWithTextAndKey) {

@@ -64,6 +64,17 @@ class Cdr:
         return self.numbers('i', 1)[0] * 1000000 + self.numbers('I', 1)[0] // 1000
 
 
+def boxes(data, *path):
+    """The contents of the boxes of an MP4 file with these names, from the outside to the inside."""
+    at = 0
+    while at + 8 <= len(data):
+        size = int.from_bytes(data[at:at + 4], 'big') or len(data) - at
+        if data[at + 4:at + 8] == path[0]:
+            content = data[at + 8:at + size]
+            yield from [content] if len(path) == 1 else boxes(content, *path[1:])
+        at += size
+
+
 class ExportTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -73,7 +84,8 @@ class ExportTest(unittest.TestCase):
         replay = run('plumb-replay', DRIVE, '--poses', cls.folder / 'replay.txt', '--no-times',
                      '--csv', cls.folder / 'replay.csv', '--objects', cls.folder / 'objects.csv')
         export = run('plumb-export', DRIVE, '--tum', cls.folder / 'a.tum', '--kitti', cls.folder / 'a.txt',
-                     '--csv', cls.folder / 'a.csv', '--mcap', cls.folder / 'a.mcap', '--ros2', cls.folder / 'ros2.mcap')
+                     '--csv', cls.folder / 'a.csv', '--mcap', cls.folder / 'a.mcap', '--ros2', cls.folder / 'ros2.mcap',
+                     '--video', cls.folder / 'a.mp4')
         assert (replay.returncode, export.returncode) == (0, 0), replay.stderr + export.stderr
         with open(cls.folder / 'replay.csv') as file:
             cls.rows = list(csv.DictReader(file))
@@ -234,6 +246,43 @@ class ExportTest(unittest.TestCase):
             self.assertAlmostEqual(twist[5], float(row['yaw_rate_rad_s']), delta=2e-3)
             self.assertGreaterEqual(twist_covariance[0] * (1 + 1e-12), float(row['speed_std_m_s']) ** 2)
 
+    def test_video_is_as_long_as_the_drive(self):
+        mp4 = (self.folder / 'a.mp4').read_bytes()
+        header, = boxes(mp4, b'moov', b'mvhd')
+        scale, duration = struct.unpack_from('>II', header, 12)
+        table, = boxes(mp4, b'moov', b'trak', b'mdia', b'minf', b'stbl')
+        (description,), (sizes,) = boxes(table, b'stsd'), boxes(table, b'stsz')
+        self.assertEqual(description[12:16], b'avc1')
+        width, height = struct.unpack_from('>HH', description, 40)
+        # 832x252, and below it a strip of text.
+        self.assertEqual(width, 832)
+        self.assertGreater(height, 252 + 40)
+        self.assertEqual(struct.unpack_from('>I', sizes, 8)[0], len(self.rows))
+        seconds = (int(self.rows[-1]['utime']) - int(self.rows[0]['utime'])) * 1e-6
+        self.assertAlmostEqual(duration / scale, seconds * len(self.rows) / (len(self.rows) - 1), delta=0.1)
+
+    def test_video_holds_pictures_that_are_missing(self):
+        log = bytearray()
+        at = num_images = 0
+        drive = DRIVE.read_bytes()
+        while at < len(drive):
+            channel_bytes, data_bytes = struct.unpack_from('>II', drive, at + 20)
+            end = at + 28 + channel_bytes + data_bytes
+            is_image = drive[at + 28:at + 28 + channel_bytes] == b'CAMERA'
+            num_images += is_image
+            if not is_image or num_images not in (40, 41, 42):
+                log += drive[at:end]
+            at = end
+        self.assertEqual(num_images, len(self.rows))
+        (self.folder / 'gap.lcm').write_bytes(log)
+        done = run('plumb-export', self.folder / 'gap.lcm', '--video', self.folder / 'gap.avi')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        avi = (self.folder / 'gap.avi').read_bytes()
+        self.assertEqual((avi[:4], avi[8:12]), (b'RIFF', b'AVI '))
+        header = avi.index(b'avih')
+        self.assertEqual(struct.unpack_from('<I', avi, header + 8 + 16)[0], num_images)
+        self.assertIn(b'vidsMJPG', avi)
+
     def test_exported_images_become_a_log_again(self):
         calibration = self.json('/camera/calibration')[0][1]
         fx, cx, fy, cy = (calibration['K'][i] for i in (0, 2, 4, 5))
@@ -250,8 +299,12 @@ class ExportTest(unittest.TestCase):
     def test_refuses_in_one_sentence(self):
         log = self.folder / 'copy.lcm'
         log.write_bytes(DRIVE.read_bytes()[:2000000])
+        (self.folder / 'link.mp4').symlink_to(log)
         for arguments, sentence in [
-                ([log], 'nothing to write: give --tum, --kitti, --csv, --mcap or --ros2'),
+                ([log, '--video', self.folder / 'x.mov'], 'x.mov ends neither in .mp4 nor in .avi'),
+                ([log, '--video', self.folder / 'link.mp4'], 'would overwrite'),
+                ([log, '--video', self.folder / 'no/folder.mp4'], 'cannot write'),
+                ([log], 'nothing to write: give --tum, --kitti, --csv, --mcap, --ros2 or --video'),
                 ([log, '--tum', log], 'would overwrite'),
                 ([log, '--mcap', self.folder / 'x', '--ros2', self.folder / 'x'], '--ros2'),
                 ([log, '--frame', 'vehicel', '--tum', self.folder / 'x'], 'vehicle'),

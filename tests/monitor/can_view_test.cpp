@@ -91,6 +91,20 @@ TEST_F(CanViewTest, KeepsObjectsByTheirIndexUntilTheyAreOld) {
   EXPECT_TRUE(newest(1'002 + CanView::kObjectAgeUs)["objects"].size() == 1U);
 }
 
+TEST_F(CanViewTest, KnowsTheBurstOfAnImageByTheLastOfItsMessages) {
+  EXPECT_FALSE(view_.has_bursts(1'000'000));
+  EXPECT_FALSE(view_.has_burst(0));
+  view_.take(ego(12.5, 3), 1'000'000);
+  EXPECT_FALSE(view_.has_burst(17)) << "its first message has come";
+  constexpr std::size_t kLast = message_index("Frame");
+  view_.take(encode(messages_[kLast], MessageValues{}, {0, 17, 0}), 1'000'000);
+  EXPECT_TRUE(view_.has_burst(17));
+  EXPECT_TRUE(view_.has_burst(256 + 17)) << "frames carry the low 8 bits";
+  EXPECT_FALSE(view_.has_burst(18));
+  EXPECT_TRUE(view_.has_bursts(1'900'000));
+  EXPECT_FALSE(view_.has_bursts(2'100'000));
+}
+
 TEST_F(CanViewTest, SchemaNamesEverySignalOfTheTable) {
   const json schema = view_.schema();
   ASSERT_EQ(schema.size(), kNumMessages);

@@ -50,6 +50,10 @@ class FakeChain {
     vo.seq = seq;
     vo.num_road_points = 1;
     vo.road_points_px[0][0] = 12.25F;
+    vo.num_features = 2;
+    vo.features_px[1][0] = 12.5F;
+    vo.features_px[1][1] = 7.0F;
+    vo.features_kind[1] = vo_motion_t::FEATURE_MOVING;
     vo_.publish(vo);
     ground_plane_t plane{};
     plane.seq = seq;
@@ -102,6 +106,7 @@ TEST(LiveMonitor, ShowsWhatTheBusCarries) {
       EXPECT_EQ((*frame)["row"][2], speed);
       EXPECT_EQ((*frame)["plane"]["height"], 1.0 / 3.0);
       EXPECT_EQ((*frame)["plane"]["cues"][0]["test_ratio"], 0.7);
+      EXPECT_EQ((*frame)["vo"]["features"], nlohmann::json({0.0, 0.0, 0, 12.5, 7.0, 2}));
       EXPECT_EQ((*frame)["image"]["seq"], seq);
       EXPECT_EQ(page.jpeg().substr(0, 2), "\xff\xd8");
       page.say("ack " + (*frame)["id"].dump());

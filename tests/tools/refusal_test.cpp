@@ -130,9 +130,8 @@ TEST_F(OverwriteRefusal, TrainAndCalibrate) {
   }
 }
 
-TEST_F(OverwriteRefusal, DrawSynthAndCan) {
+TEST_F(OverwriteRefusal, SynthAndCan) {
   for (const Call& call : std::vector<Call>{
-           {"plumb-draw", "@/log.lcm @/frames.csv --out @/pictures --video @/frames.csv", "CSV"},
            {"plumb-synth", "--poses @/drive/poses.txt --out @/drive --force", "--poses"},
            {"plumb-can", "--lcm-url memq:// --config @/empty.toml --trace @/empty.toml",
             "the input --config"}}) {

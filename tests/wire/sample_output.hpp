@@ -50,6 +50,10 @@ inline VoOutput sample_vo_output() {
                                    0.01F,
                                    static_cast<std::int16_t>(2 + i % 9)});
   }
+  for (std::size_t i = 0; i < kMaxFeatures; ++i) {
+    const auto k = static_cast<float>(i);
+    (void)o.features.push_back({{0.25F + k, 300.0F - k}, static_cast<FeatureKind>(i % 4)});
+  }
   return o;
 }
 

@@ -37,6 +37,10 @@ TEST(VoWire, RoundTripsToTheSameBits) {
   to_wire(back, &second);
   EXPECT_EQ(
       0, std::memcmp(first.road_points_cam, second.road_points_cam, sizeof first.road_points_cam));
+  ASSERT_EQ(kMaxFeatures, back.features.size());
+  EXPECT_EQ(FeatureKind::kAttached, back.features[3].kind);
+  EXPECT_EQ(0, std::memcmp(first.features_px, second.features_px, sizeof first.features_px));
+  EXPECT_EQ(0, std::memcmp(first.features_kind, second.features_kind, sizeof first.features_kind));
   EXPECT_EQ(0, std::memcmp(first.cov_prev_cam, second.cov_prev_cam, sizeof first.cov_prev_cam));
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(first.q_prev_cam[i], second.q_prev_cam[i], 1e-15);
   EXPECT_EQ(0, std::memcmp(first.t_window_cam, second.t_window_cam, sizeof first.t_window_cam));
@@ -94,6 +98,9 @@ TEST(VoWire, RefusesCountsAndNumbersOutOfRange) {
   EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = 385; }));
   EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = -1; }));
   EXPECT_EQ(points, refusal([](vo_motion_t* m) { m->num_road_points = 32767; }));
+  const std::string features = "VO motion: number of features is out of range";
+  EXPECT_EQ(features, refusal([](vo_motion_t* m) { m->num_features = 1001; }));
+  EXPECT_EQ(features, refusal([](vo_motion_t* m) { m->num_features = -1; }));
   const std::string window = "VO motion: number of window poses is out of range";
   EXPECT_EQ(window, refusal([](vo_motion_t* m) { m->num_window = 13; }));
   EXPECT_EQ(window, refusal([](vo_motion_t* m) { m->num_window = -128; }));
@@ -131,6 +138,10 @@ TEST(VoWire, RefusesInvalidCovariancesAndPoints) {
   EXPECT_EQ(point, refusal([=](vo_motion_t* m) { m->road_points_px[7][1] = nan; }));
   EXPECT_EQ(point, refusal([=](vo_motion_t* m) { m->road_points_rel_std[7] = nan; }));
   EXPECT_EQ(point, refusal([](vo_motion_t* m) { m->road_points_num_obs[7] = -1; }));
+  const std::string feature = "VO motion: a feature has no place in the image or no known kind";
+  EXPECT_EQ(feature, refusal([=](vo_motion_t* m) { m->features_px[999][1] = nan; }));
+  EXPECT_EQ(feature, refusal([](vo_motion_t* m) { m->features_kind[0] = 4; }));
+  EXPECT_EQ(feature, refusal([](vo_motion_t* m) { m->features_kind[7] = -1; }));
   EXPECT_EQ("VO motion: the tracking summary is not finite",
             refusal([=](vo_motion_t* m) { m->median_flow_px = nan; }));
 }
@@ -139,6 +150,8 @@ TEST(VoWire, IgnoresRowsBeyondTheCounts) {
   EXPECT_EQ("", refusal([](vo_motion_t* m) {
               m->num_road_points = 3;
               m->road_points_cam[3][0] = std::numeric_limits<float>::quiet_NaN();
+              m->num_features = 2;
+              m->features_kind[2] = 17;
               m->num_window = 1;
               m->q_window_cam[1][0] = kNan;
             }));

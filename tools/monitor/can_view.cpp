@@ -11,6 +11,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::int64_t kBurstsStopUs = 1'000'000;
+
 constexpr const char* kE2eNames[] = {"ok", "first", "lost", "repeated", "wrong"};
 
 /// Index of the signal that carries `framing`, or -1.
@@ -41,7 +43,20 @@ json signal_schema(const Signal& signal) {
 
 }  // namespace
 
-CanView::CanView(const CanConfig& config) : messages_(can_messages(config)) {}
+CanView::CanView(const CanConfig& config)
+    : messages_(can_messages(config)),
+      burst_counter_(
+          static_cast<std::size_t>(find_framing(messages_[kBurstEnd], Framing::kFrameCounter))) {}
+
+bool CanView::has_bursts(std::int64_t now_us) const {
+  const Slot& slot = slots_[kBurstEnd];
+  return slot.time_us != 0 && now_us - slot.time_us < kBurstsStopUs;
+}
+
+bool CanView::has_burst(std::int64_t seq) const {
+  const Slot& slot = slots_[kBurstEnd];
+  return slot.time_us != 0 && slot.values[burst_counter_] == static_cast<double>(seq & 0xff);
+}
 
 void CanView::follow_counter(int alive, Slot* slot) {
   if (slot->alive < 0) {

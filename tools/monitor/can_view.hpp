@@ -30,6 +30,11 @@ class CanView {
   /// longer than kObjectAgeUs.
   [[nodiscard]] nlohmann::json values(std::int64_t now_us) const;
 
+  /// Whether the burst of the camera frame with this number is complete.
+  [[nodiscard]] bool has_burst(std::int64_t seq) const;
+  /// Whether bursts have come within the last second.
+  [[nodiscard]] bool has_bursts(std::int64_t now_us) const;
+
   /// Failures of the CRC, lost and repeated frames, of all messages.
   [[nodiscard]] std::int64_t num_faults() const { return num_faults_; }
   [[nodiscard]] std::int64_t num_frames() const { return num_frames_; }
@@ -37,6 +42,8 @@ class CanView {
   static constexpr std::int64_t kObjectAgeUs = 1'000'000;
 
  private:
+  static constexpr std::size_t kBurstEnd = message_index("Frame");  ///< the last of a burst
+
   enum class E2e : std::uint8_t { kOk, kFirst, kLost, kRepeated, kWrong };
   struct Slot {
     std::int64_t time_us = 0;  ///< of the newest frame that passed the check; 0: none
@@ -58,6 +65,7 @@ class CanView {
   [[nodiscard]] nlohmann::json message_values(std::size_t message, std::int64_t now_us) const;
 
   Messages messages_;
+  std::size_t burst_counter_;  ///< the signal of kBurstEnd that counts camera frames
   std::array<Slot, kNumMessages> slots_{};
   std::array<std::array<ObjectSlot, kMaxCanObjects>, kNumMessages> objects_{};
   std::int64_t num_frames_ = 0;

@@ -47,6 +47,18 @@ json camera_json(const camera_calibration_t& m) {
           {"camera_height", m.camera_height_m}};
 }
 
+/// Flat, with half a pixel's precision: hundreds of features go to the page with every image.
+json features_json(const vo_motion_t& m) {
+  json features = json::array();
+  const int count = std::clamp<int>(m.num_features, 0, 1000);
+  for (int i = 0; i < count; ++i) {
+    features.push_back(rounded(m.features_px[i][0], 2.0));
+    features.push_back(rounded(m.features_px[i][1], 2.0));
+    features.push_back(m.features_kind[i]);
+  }
+  return features;
+}
+
 json vo_json(const vo_motion_t& m) {
   json points = json::array();
   const int count = std::clamp<int>(m.num_road_points, 0, 384);
@@ -67,7 +79,8 @@ json vo_json(const vo_motion_t& m) {
           {"median_parallax_px", m.median_parallax_px},
           {"rms_residual_px", m.rms_residual_px},
           {"attached_share", m.attached_share},
-          {"points", std::move(points)}};
+          {"points", std::move(points)},
+          {"features", features_json(m)}};
 }
 
 json plane_json(const ground_plane_t& m) {
@@ -177,6 +190,7 @@ json status_words() {
   for (const CueEntry& cue : kCueTable) cues.push_back(cue.name);
   return {{"vo_status", kVoMotionStatusNames},
           {"vo_reason", kVoMotionReasonNames},
+          {"vo_feature", kVoMotionFeatureNames},
           {"plane_status", kGroundPlaneStatusNames},
           {"plane_reason", kGroundPlaneReasonNames},
           {"ego_status", kEgoMotionStatusNames},

@@ -123,16 +123,24 @@ void LiveMonitor::on_ego(const ego_motion_t& message) {
   // A quarter of a period early is on time: images come with jitter, and none shall be left out for
   // it at the camera's own rate.
   if (now_us - last_frame_us_ < period_us_ * 3 / 4) return;
-  const bool objects_come = now_us - last_objects_us_ < 1'000'000;
-  waiting_ = {true, message.seq, now_us, now_us + (objects_come ? kObjectsWaitUs : 0),
-              image_of(message.seq)};
-  if (!objects_come) send_waiting(now_us);
+  waiting_ = {true, message.seq, now_us, now_us + kLongestWaitUs, image_of(message.seq)};
+  waiting_.for_objects = now_us - last_objects_us_ < 1'000'000;
+  waiting_.for_can = can_.has_bursts(now_us);
+  send_when_complete(now_us);
 }
 
 void LiveMonitor::on_objects(const objects_t& message) {
   view_.take(message);
   last_objects_us_ = monotonic_us();
-  if (waiting_.active && message.seq == waiting_.seq) send_waiting(last_objects_us_);
+  if (message.seq == waiting_.seq) waiting_.for_objects = false;
+  send_when_complete(last_objects_us_);
+}
+
+void LiveMonitor::send_when_complete(std::int64_t now_us) {
+  if (!waiting_.active) return;
+  if (waiting_.for_can && can_.has_burst(waiting_.seq)) waiting_.for_can = false;
+  const bool is_complete = !waiting_.for_objects && !waiting_.for_can;
+  if (is_complete || now_us >= waiting_.send_us) send_waiting(now_us);
 }
 
 void LiveMonitor::send_waiting(std::int64_t now_us) {
@@ -224,7 +232,7 @@ void LiveMonitor::tick() {
                   "CAN", can_state_.empty() ? "frames can be read" : can_state_);
   }
   if (server_->num_pages() == 0) return;
-  if (waiting_.active && now_us >= waiting_.send_us) send_waiting(now_us);
+  send_when_complete(now_us);
   if (now_us >= next_state_us_) send_state(now_us);
 }
 

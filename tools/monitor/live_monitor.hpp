@@ -57,16 +57,19 @@ class LiveMonitor final : public MonitorSource {
     std::vector<std::uint8_t> bytes;
     std::size_t size = 0;
   };
-  /// What waits to be sent: the results of one image, until its objects have come, too.
+  /// What waits to be sent: the results of one image, until its objects and its burst on CAN have
+  /// come, too.
   struct Waiting {
     bool active = false;
     std::int64_t seq = -1;
     std::int64_t arrival_us = 0;  ///< of the results
     std::int64_t send_us = 0;     ///< at the latest
     const Image* image = nullptr;
+    bool for_objects = false;
+    bool for_can = false;
   };
   static constexpr std::size_t kNumImages = 3;
-  static constexpr std::int64_t kObjectsWaitUs = 25'000;
+  static constexpr std::int64_t kLongestWaitUs = 30'000;
   static constexpr std::int64_t kTickUs = 10'000;
   static constexpr std::int64_t kSilenceUs = 400'000;  ///< after which images go without results
 
@@ -78,6 +81,7 @@ class LiveMonitor final : public MonitorSource {
   void on_ego(const ego_motion_t& message);
   void on_objects(const objects_t& message);
   void tick();
+  void send_when_complete(std::int64_t now_us);
   void send_waiting(std::int64_t now_us);
   void send_state(std::int64_t now_us);
   void send(nlohmann::json message, const Image* image, std::int64_t arrival_us);

@@ -17,8 +17,10 @@ std::vector<std::string> cells_of(std::string_view line) {
 
 }  // namespace
 
-CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) {
-  const std::vector<std::string> lines = read_lines(path_);
+CsvTable::CsvTable(std::filesystem::path path) : CsvTable(path.string(), read_lines(path)) {}
+
+CsvTable::CsvTable(std::string name, const std::vector<std::string>& lines)
+    : path_(std::move(name)) {
   if (lines.empty()) throw InputError(path_.string() + " is empty");
   header_ = cells_of(lines.front());
   for (std::size_t i = 1; i < lines.size(); ++i) {

@@ -15,6 +15,8 @@ class CsvTable {
   /// Throws InputError with file and line when the file is empty or a row has too few or too many
   /// cells.
   explicit CsvTable(std::filesystem::path path);
+  /// The same for lines that are in memory; messages call them `name`.
+  CsvTable(std::string name, const std::vector<std::string>& lines);
 
   /// Throws InputError when one of `columns` is missing.
   void require(const std::vector<std::string>& columns) const;

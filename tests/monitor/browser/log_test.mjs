@@ -69,6 +69,26 @@ test('a picture is drawn with its overlay', async () => {
   assert.ok(colours.bright > 20000, JSON.stringify(colours));
 });
 
+test('features are drawn by kind, and each kind has a switch', async () => {
+  await page.evaluate(() => { window.plumb.player.playing = false; window.plumb.player.seek(6); });
+  await page.waitForFunction(() => window.plumb.frame?.vo && !window.plumb.player.busy);
+  await page.waitForTimeout(500);
+  const counts = await page.evaluate(() => {
+    const { features } = window.plumb.frame.vo;
+    return window.plumb.hello.words.vo_feature.map((_, kind) => features.filter((value, i) => i % 3 === 2 && value === kind).length);
+  });
+  assert.ok(counts[1] > 100, `static: ${counts}`);
+  const pixels = () => page.evaluate(() => document.getElementById('camera').toDataURL());
+  const before = await pixels();
+  for (const [kind, key] of [['static', '7'], ['undecided', '0']]) {
+    assert.ok(await page.isVisible(`label:has(#layer-${kind}) .mark`));
+    await page.keyboard.press(key);
+    assert.ok(await pixels() !== before, `${kind} is not drawn`);
+    await page.keyboard.press(key);
+    assert.ok(await pixels() === before, `${kind} does not come back`);
+  }
+});
+
 for (const [name, options] of Object.entries({ light: {}, dark: { colorScheme: 'dark' }, phone: { width: 400, height: 860 } })) {
   test(`axe finds nothing serious: ${name}`, { timeout: 60000 }, async () => {
     const other = await openPage(browser, url, options);

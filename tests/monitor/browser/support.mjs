@@ -67,8 +67,29 @@ export function busValues(path) {
   return { speeds, planes };
 }
 
-/** Every speed that PLB_EgoMotion carried, as the DBC defines it: 24|16@1+ (0.005,-100). */
+/** Every speed that PLB_EgoMotion carried and when, as the DBC defines it: 24|16@1+ (0.005,-100). */
 export function canSpeeds(path) {
-  const raws = readFileSync(path, 'latin1').split('\n').map((line) => /^\(.*\) \w+ 3A0#(\w{16})$/.exec(line)?.[1]).filter(Boolean);
-  return raws.map((hex) => Buffer.from(hex, 'hex').readUInt16LE(3) * 0.005 - 100);
+  return readFileSync(path, 'latin1').split('\n').map((line) => /^\((.*)\) \w+ 3A0#(\w{16})$/.exec(line)).filter(Boolean)
+    .map(([, time_s, hex]) => ({ time_ms: 1000 * Number(time_s), speed: Buffer.from(hex, 'hex').readUInt16LE(3) * 0.005 - 100 }));
+}
+
+/** Notes when the speed on CAN changes on the page, in window.canNotes. */
+export async function watchCanSpeed(page) {
+  await page.evaluate(() => {
+    window.canNotes = [];
+    const cell = document.querySelector('[data-signal=EgoMotion_Speed]');
+    window.canObserver?.disconnect();
+    window.canObserver = new MutationObserver(() => window.canNotes.push({ time_ms: Date.now(), speed: Number(cell.dataset.raw) }));
+    window.canObserver.observe(cell, { attributes: true, attributeFilter: ['data-raw'] });
+  });
+}
+
+/** How long after its first frame on CAN each of the noted speeds was on the page, sorted [ms]. */
+export function canDelays_ms(sent, notes) {
+  const first = sent.filter(({ speed }, i) => i === 0 || Math.abs(speed - sent[i - 1].speed) > 1e-9);
+  const delays = notes.filter((note) => note.time_ms > sent[0]?.time_ms).map((note) => {
+    const source = first.findLast(({ time_ms, speed }) => time_ms <= note.time_ms && Math.abs(speed - note.speed) < 1e-9);
+    return source ? note.time_ms - source.time_ms : NaN;
+  });
+  return delays.filter((delay) => !Number.isNaN(delay)).sort((a, b) => a - b);
 }

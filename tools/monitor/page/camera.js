@@ -17,6 +17,14 @@ export const LAYERS = [
     hint: 'Boxes of the detector.' },
   { id: 'objects', key: '6', name: 'Objects', colour: '#ff6b81', mark: 'line',
     hint: 'Objects on the road; dashed while they are predicted.' },
+  { id: 'static', key: '7', name: 'Static features', colour: '#a8b8ff', mark: 'dot',
+    hint: 'Features of known depth that stand still in the world.' },
+  { id: 'moving', key: '8', name: 'Moving features', colour: '#ff4dff', mark: 'cross',
+    hint: 'Features that no point of the world explains: they move, or were mistaken for others.' },
+  { id: 'attached', key: '9', name: 'Attached features', colour: '#ff5c00', mark: 'square',
+    hint: 'Features that stay in their place in the image while the camera turns.' },
+  { id: 'undecided', key: '0', name: 'Undecided features', colour: '#9aa5b1', mark: 'speck',
+    hint: 'Features that are new or of unknown depth, and all of them while the motion is not known.' },
 ];
 const COLOUR = Object.fromEntries(LAYERS.map((layer) => [layer.id, layer.colour]));
 const GRID_AHEAD_M = [5, 10, 15, 20, 30, 40];
@@ -97,6 +105,34 @@ function drawPoints(context, points, unit) {
   context.globalAlpha = 1;
 }
 
+/** One path for all features of a kind. */
+const FEATURE_SHAPES = {
+  dot: (context, x, y, unit) => context.rect(x - unit, y - unit, 2 * unit, 2 * unit),
+  speck: (context, x, y, unit) => context.rect(x - 0.75 * unit, y - 0.75 * unit, 1.5 * unit, 1.5 * unit),
+  square: (context, x, y, unit) => context.rect(x - 2.5 * unit, y - 2.5 * unit, 5 * unit, 5 * unit),
+  cross: (context, x, y, unit) => {
+    const arm = 3 * unit;
+    context.moveTo(x - arm, y - arm);
+    context.lineTo(x + arm, y + arm);
+    context.moveTo(x + arm, y - arm);
+    context.lineTo(x - arm, y + arm);
+  },
+};
+
+/** `features`: x, y and the number of the kind, again and again. */
+function drawFeatures(context, features, kinds, shown, unit) {
+  for (const layer of LAYERS) {
+    const kind = kinds.indexOf(layer.id);
+    if (kind < 0 || !shown.has(layer.id)) continue;
+    context.beginPath();
+    for (let i = 0; i + 2 < features.length; i += 3)
+      if (features[i + 2] === kind) FEATURE_SHAPES[layer.mark](context, features[i], features[i + 1], unit);
+    context.fillStyle = context.strokeStyle = layer.colour;
+    context.lineWidth = 1.5 * unit;
+    ['dot', 'speck'].includes(layer.mark) ? context.fill() : context.stroke();
+  }
+}
+
 function drawBoxes(context, boxes, unit) {
   context.strokeStyle = COLOUR.boxes;
   context.lineWidth = unit;
@@ -167,6 +203,7 @@ export class CameraView {
     const { context } = this;
     const plane = frame.plane?.height ? frame.plane : null;
     if (shown.has('boxes') && frame.boxes) drawBoxes(context, frame.boxes, unit);
+    if (frame.vo) drawFeatures(context, frame.vo.features, hello.words.vo_feature, shown, unit);
     if (shown.has('points') && frame.vo) drawPoints(context, frame.vo.points, unit);
     if (!plane) return;
     if (shown.has('region')) {

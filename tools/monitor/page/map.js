@@ -3,6 +3,7 @@
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 const LEAST_SPAN_M = 40;
+const LOOK_AHEAD_M = 30;  // room for the objects before the camera, which do not make the map jump
 
 /** A round length for the scale bar, at most `limit`. */
 function roundLength(limit) {
@@ -51,7 +52,9 @@ export class MapView {
       context.fillText('no metric motion yet', 12, 22);
       return;
     }
-    const box = bounds(path);
+    const heading = this.heading(frame) ?? 0;
+    const [x, z] = path.at(-1);
+    const box = bounds([...path, [x + LOOK_AHEAD_M * Math.sin(heading), z + LOOK_AHEAD_M * Math.cos(heading)]]);
     const fit = Math.min((width - 48) / Math.max(box.right - box.left, LEAST_SPAN_M),
       (height - 56) / Math.max(box.high - box.low, LEAST_SPAN_M));
     const middle = [(box.left + box.right) / 2, (box.low + box.high) / 2];

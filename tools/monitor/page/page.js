@@ -104,7 +104,7 @@ async function showIndex(index) {
   if (packet) await show(packet.message, packet.jpeg, false, true);
 }
 
-/** Shows one moment. Tables and charts follow a running picture more slowly than the picture does. */
+/** Shows one moment. Charts and tables, but for CAN, follow a running picture more slowly than the picture does. */
 async function show(frame, jpeg, isState, force = false) {
   page.frame = frame;
   lastJpeg = jpeg;
@@ -121,6 +121,7 @@ async function show(frame, jpeg, isState, force = false) {
     tablesAt_ms = now_ms;
     showTables(frame);
   }
+  showCan(frame, page.hello);
   showControls(page, events.events);
 }
 
@@ -141,7 +142,6 @@ function showTables(frame) {
   showMount(frame, hello);
   showProcesses(frame, hello);
   showChannels(frame);
-  showCan(frame, hello);
   const row = frame.row ?? [];
   const say = (name, digits, factor = 1) => number(row[page.columns[name]] === null || row[page.columns[name]] === undefined
     ? null : row[page.columns[name]] * factor, digits);

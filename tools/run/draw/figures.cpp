@@ -1,11 +1,13 @@
 #include "tools/run/draw/figures.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/input_error.hpp"
 #include "core/numbers.hpp"
 #include "modules/datasets/text.hpp"
-#include "tools/support/csv_table.hpp"
+#include "plumb/status_names.hpp"
 
 namespace plumb {
 namespace {
@@ -24,11 +26,11 @@ std::string figure(const CsvTable& table, std::size_t row, const char* name, con
                 unit);
 }
 
-FrameFigures figures_of(const CsvTable& table, std::size_t row) {
+FrameFigures read_frame(const CsvTable& table, std::size_t row) {
   FrameFigures figures;
   const auto n1 = table.number(row, "n1"), n2 = table.number(row, "n2"),
              n3 = table.number(row, "n3"), height = table.number(row, "height_m");
-  if (n1 && n2 && n3 && height) figures.plane = RoadPlane{{*n1, *n2, *n3}, *height};
+  if (n1 && n2 && n3 && height) figures.plane = PlaneFigure{{*n1, *n2, *n3}, *height};
   figures.lines = {
       format("frame %s, vo %s, plane %s, motion %s", text_of(table, row, "seq").c_str(),
              text_of(table, row, "vo_status").c_str(), text_of(table, row, "plane_status").c_str(),
@@ -41,42 +43,81 @@ FrameFigures figures_of(const CsvTable& table, std::size_t row) {
   return figures;
 }
 
+/// Sequence number of a row.
+std::int64_t seq_of(const CsvTable& table, std::size_t row) {
+  const auto seq = table.number(row, "seq");
+  if (!seq) throw InputError(table.at(row) + "seq is empty");
+  return static_cast<std::int64_t>(*seq);
+}
+
+FeatureKind kind_of(const CsvTable& table, std::size_t row) {
+  const auto word = text_of(table, row, "kind");
+  const auto found = std::find(kVoMotionFeatureNames.begin(), kVoMotionFeatureNames.end(), word);
+  if (found == kVoMotionFeatureNames.end())
+    throw InputError(table.at(row) + "kind: '" + word + "' is no kind of a feature");
+  return static_cast<FeatureKind>(std::distance(kVoMotionFeatureNames.begin(), found));
+}
+
 }  // namespace
 
-void read_objects(const std::filesystem::path& csv, std::map<std::int64_t, FrameFigures>* figures) {
-  const CsvTable table(csv);
-  table.require(
-      {"seq", "class", "status", "x_m", "y_m", "yaw_rad", "length_m", "width_m", "height_m"});
-  for (std::size_t row = 0; row < table.num_rows(); ++row) {
-    const auto cell = [&](const char* column) { return table.number(row, column); };
-    const auto seq = cell("seq");
-    if (!seq) throw InputError(table.at(row) + "seq is empty");
-    const auto frame = figures->find(static_cast<std::int64_t>(*seq));
-    const auto x = cell("x_m"), y = cell("y_m"), yaw = cell("yaw_rad");
-    const auto length = cell("length_m"), width = cell("width_m"), height = cell("height_m");
-    if (frame == figures->end() || !x || !y || !yaw || !length || !width || !height) continue;
-    ObjectFigure object{{*x, *y}, *yaw, {*length, *width, *height}, false, ""};
-    object.measured = text_of(table, row, "status") == "measured";
-    object.label = format("%s %.0f m", text_of(table, row, "class").c_str(), std::hypot(*x, *y));
-    frame->second.objects.push_back(std::move(object));
+DriveFigures::DriveFigures(const CsvTable& frames) {
+  frames.require({"seq", "n1", "n2", "n3", "height_m", "x_m", "z_m"});
+  for (std::size_t row = 0; row < frames.num_rows(); ++row) {
+    const auto x = frames.number(row, "x_m"), z = frames.number(row, "z_m");
+    if (x && z) path_m_.emplace_back(*x, *z);
+    places_.try_emplace(seq_of(frames, row), frames_.size());
+    frames_.push_back({seq_of(frames, row), read_frame(frames, row), path_m_.size()});
   }
 }
 
-std::map<std::int64_t, FrameFigures> read_figures(const std::filesystem::path& csv) {
-  const CsvTable table(csv);
-  table.require({"seq", "n1", "n2", "n3", "height_m", "x_m", "z_m"});
-  std::map<std::int64_t, FrameFigures> figures;
-  std::vector<Eigen::Vector2d> path_m;
-  for (std::size_t row = 0; row < table.num_rows(); ++row) {
-    const auto seq = table.number(row, "seq");
-    if (!seq) throw InputError(table.at(row) + "seq is empty");
-    FrameFigures frame = figures_of(table, row);
-    const auto x = table.number(row, "x_m"), z = table.number(row, "z_m");
-    if (x && z) path_m.emplace_back(*x, *z);
-    frame.path_m = path_m;
-    figures.emplace(static_cast<std::int64_t>(*seq), std::move(frame));
+void DriveFigures::add_objects(const CsvTable& objects) {
+  objects.require(
+      {"seq", "class", "status", "x_m", "y_m", "yaw_rad", "length_m", "width_m", "height_m"});
+  for (std::size_t row = 0; row < objects.num_rows(); ++row) {
+    const auto cell = [&](const char* column) { return objects.number(row, column); };
+    FrameFigures* frame = figures_of(objects, row);
+    const auto x = cell("x_m"), y = cell("y_m"), yaw = cell("yaw_rad");
+    const auto length = cell("length_m"), width = cell("width_m"), height = cell("height_m");
+    if (frame == nullptr || !x || !y || !yaw || !length || !width || !height) continue;
+    ObjectFigure object{{*x, *y}, *yaw, {*length, *width, *height}, false, ""};
+    object.measured = text_of(objects, row, "status") == "measured";
+    object.label = object_label(text_of(objects, row, "class"), object.place_m);
+    frame->objects.push_back(std::move(object));
   }
+}
+
+void DriveFigures::add_features(const CsvTable& features) {
+  features.require({"seq", "u_px", "v_px", "kind"});
+  for (std::size_t row = 0; row < features.num_rows(); ++row) {
+    const auto u = features.number(row, "u_px"), v = features.number(row, "v_px");
+    const FeatureKind kind = kind_of(features, row);
+    FrameFigures* frame = figures_of(features, row);
+    if (frame == nullptr || !u || !v) continue;
+    frame->features.push_back({Eigen::Vector2d(*u, *v).cast<float>(), kind});
+  }
+}
+
+/// The figures of the frame that a row names, or null when there is no such frame.
+FrameFigures* DriveFigures::figures_of(const CsvTable& table, std::size_t row) {
+  const auto index = find(seq_of(table, row));
+  return index ? &frames_[*index].figures : nullptr;
+}
+
+std::optional<std::size_t> DriveFigures::find(std::int64_t seq) const {
+  const auto place = places_.find(seq);
+  if (place == places_.end()) return {};
+  return place->second;
+}
+
+FrameFigures DriveFigures::frame(std::size_t index) const {
+  FrameFigures figures = frames_[index].figures;
+  const auto num_points = static_cast<std::ptrdiff_t>(frames_[index].num_path_points);
+  figures.path_m.assign(path_m_.begin(), path_m_.begin() + num_points);
   return figures;
+}
+
+std::string object_label(const std::string& class_name, const Eigen::Vector2d& place_m) {
+  return format("%s %.0f m", class_name.c_str(), place_m.norm());
 }
 
 }  // namespace plumb

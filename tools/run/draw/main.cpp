@@ -5,7 +5,6 @@
 #include <iostream>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "platform/bounded_decode.hpp"
 #include "platform/command_line.hpp"
 #include "platform/log_file.hpp"
-#include "platform/overwrite_guard.hpp"
 #include "tools/run/draw/figures.hpp"
 #include "tools/support/tool_main.hpp"
 
@@ -27,19 +25,18 @@ struct Options {
   std::string log;
   std::string csv;
   std::string objects;
+  std::string features;
   std::string out;
   std::vector<std::int64_t> frames;
   int num_pictures = 4;
-  std::string video;
 };
 
 /// Frames spread evenly over the drive, without its first one.
-std::vector<std::int64_t> spread(const std::map<std::int64_t, FrameFigures>& figures, int count) {
-  std::vector<std::int64_t> all, chosen;
-  for (const auto& [seq, frame] : figures) all.push_back(seq);
-  for (int i = 1; i <= count && !all.empty(); ++i) {
-    chosen.push_back(
-        all[(all.size() - 1) * static_cast<std::size_t>(i) / static_cast<std::size_t>(count)]);
+std::vector<std::int64_t> spread(const DriveFigures& figures, int count) {
+  std::vector<std::int64_t> chosen;
+  for (int i = 1; i <= count && figures.size() > 0; ++i) {
+    chosen.push_back(figures.seq((figures.size() - 1) * static_cast<std::size_t>(i) /
+                                 static_cast<std::size_t>(count)));
   }
   return chosen;
 }
@@ -48,8 +45,9 @@ std::vector<std::int64_t> spread(const std::map<std::int64_t, FrameFigures>& fig
 class Painter {
  public:
   explicit Painter(const Options& options)
-      : options_(options), figures_(read_figures(options.csv)), wanted_(options.frames) {
-    if (!options.objects.empty()) read_objects(options.objects, &figures_);
+      : options_(options), figures_(CsvTable(options.csv)), wanted_(options.frames) {
+    if (!options.objects.empty()) figures_.add_objects(CsvTable(options.objects));
+    if (!options.features.empty()) figures_.add_features(CsvTable(options.features));
     if (wanted_.empty()) wanted_ = spread(figures_, options.num_pictures);
     std::filesystem::create_directories(options.out);
   }
@@ -75,15 +73,13 @@ class Painter {
     ImageView view;
     if (read_image(event.data, &frame) != nullptr) return;
     const bool wanted = std::find(wanted_.begin(), wanted_.end(), frame.seq) != wanted_.end();
-    const auto figures = figures_.find(frame.seq);
-    if ((!wanted && options_.video.empty()) || figures == figures_.end()) return;
+    const auto index = figures_.find(frame.seq);
+    if (!wanted || !index) return;
     if (decoder_->check(frame) != nullptr || decoder_->decode(frame, &view) != nullptr) return;
     // OpenCV has no view of constant pixels; draw_overlay() only reads them.
     const cv::Mat grey(view.height_px, view.width_px, CV_8U, const_cast<std::uint8_t*>(view.data),
                        static_cast<std::size_t>(view.stride_bytes));
-    const cv::Mat picture = draw_overlay(grey, camera_, figures->second);
-    if (wanted) write_picture(frame.seq, picture);
-    if (!options_.video.empty()) write_video(picture);
+    write_picture(frame.seq, draw_overlay(grey, camera_, figures_.frame(*index)));
   }
 
   void write_picture(std::int64_t seq, const cv::Mat& picture) {
@@ -94,31 +90,15 @@ class Painter {
     ++num_written_;
   }
 
-  void write_video(const cv::Mat& picture) {
-    if (!video_.isOpened() &&
-        !video_.open(options_.video, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0,
-                     picture.size())) {
-      throw InputError("cannot write " + options_.video);
-    }
-    video_.write(picture);
-  }
-
   const Options& options_;
-  std::map<std::int64_t, FrameFigures> figures_;
+  DriveFigures figures_;
   std::vector<std::int64_t> wanted_;
   CameraModel camera_;
   std::unique_ptr<ImageDecoder> decoder_;
-  cv::VideoWriter video_;
   int num_written_ = 0;
 };
 
 int run(const Options& options) {
-  OverwriteGuard()
-      .reads("LOG", options.log)
-      .reads("CSV", options.csv)
-      .reads("--objects", options.objects)
-      .writes("--video", options.video)
-      .check();
   Painter painter(options);
   LogReader log(options.log);
   LogEvent event;
@@ -141,6 +121,7 @@ int main(int argc, char** argv) {
   app.add_option("LOG", options.log, "LCM log with the images").required();
   app.add_option("CSV", options.csv, "what plumb-replay --csv wrote for it").required();
   app.add_option("--objects", options.objects, "what plumb-replay --objects wrote for it");
+  app.add_option("--features", options.features, "what plumb-replay --features wrote for it");
   app.add_option("--out", options.out, "folder for the pictures").required();
   app.add_option("--frames", options.frames, "sequence numbers to draw [spread over the drive]")
       .delimiter(',');
@@ -148,6 +129,5 @@ int main(int argc, char** argv) {
                  "number of pictures when --frames is not given")
       .check(plumb::within(1, 1000))
       .capture_default_str();
-  app.add_option("--video", options.video, "also draw every frame into this AVI file");
   return plumb::tool_main(&app, argc, argv, [&] { return plumb::run(options); });
 }

@@ -15,6 +15,10 @@ const cv::Scalar kHorizonColour(60, 160, 255);
 const cv::Scalar kPathColour(255, 200, 80);
 const cv::Scalar kObjectColour(90, 90, 255);
 const cv::Scalar kPredictedColour(240, 150, 230);
+const cv::Scalar kStaticColour(255, 184, 168);
+const cv::Scalar kMovingColour(255, 77, 255);
+const cv::Scalar kAttachedColour(0, 92, 255);
+const cv::Scalar kUndecidedColour(177, 165, 154);
 constexpr double kNearest_m = 4.0;
 constexpr double kNearestPoint_m = 0.5;
 constexpr double kWidestRatio =
@@ -25,7 +29,7 @@ constexpr double kHalfWidth_m = 3.6;
 cv::Point2d to_point(const Eigen::Vector2d& px) { return {px.x(), px.y()}; }
 
 /// Point on the plane `right_m` to the right of and `ahead_m` ahead of the camera.
-Eigen::Vector3d on_road(const RoadPlane& plane, double right_m, double ahead_m) {
+Eigen::Vector3d on_road(const PlaneFigure& plane, double right_m, double ahead_m) {
   const Eigen::Vector3d& n = plane.normal_cam;
   const double down_m = (plane.height_m - n.x() * right_m - n.z() * ahead_m) / n.y();
   return {right_m, down_m, ahead_m};
@@ -49,7 +53,7 @@ void draw_road_line(const Canvas& canvas, const Eigen::Vector3d& from, const Eig
   }
 }
 
-void draw_road(const Canvas& canvas, const RoadPlane& plane) {
+void draw_road(const Canvas& canvas, const PlaneFigure& plane) {
   for (double right = -kHalfWidth_m; right <= kHalfWidth_m + 0.1; right += 1.8) {
     draw_road_line(canvas, on_road(plane, right, kNearest_m), on_road(plane, right, kFarthest_m));
   }
@@ -67,7 +71,7 @@ void draw_road(const Canvas& canvas, const RoadPlane& plane) {
 }
 
 /// Distances beside the grid; those that say most come first.
-void label_road(const Canvas& canvas, const RoadPlane& plane, LabelPlacer* labels) {
+void label_road(const Canvas& canvas, const PlaneFigure& plane, LabelPlacer* labels) {
   for (const int ahead : {10, 20, 40, 5, 30, 15}) {
     const cv::Point2d end = to_point(canvas.camera.project(on_road(plane, kHalfWidth_m, ahead)));
     labels->place(std::to_string(ahead) + " m", end, kRoadColour);
@@ -75,7 +79,7 @@ void label_road(const Canvas& canvas, const RoadPlane& plane, LabelPlacer* label
 }
 
 /// Corners in cam: the underside, then the top, both in order around the box.
-std::array<Eigen::Vector3d, 8> corners_of(const ObjectFigure& object, const RoadPlane& plane) {
+std::array<Eigen::Vector3d, 8> corners_of(const ObjectFigure& object, const PlaneFigure& plane) {
   const Eigen::Vector3d& down = plane.normal_cam;
   const Eigen::Vector3d ahead =
       (Eigen::Vector3d::UnitZ() - down.z() * down).normalized();  // optical axis, along the road
@@ -115,7 +119,7 @@ void draw_edge(const Canvas& canvas, const Eigen::Vector3d& from, const Eigen::V
   }
 }
 
-void draw_object(const Canvas& canvas, const RoadPlane& plane, const ObjectFigure& object) {
+void draw_object(const Canvas& canvas, const PlaneFigure& plane, const ObjectFigure& object) {
   const std::array<Eigen::Vector3d, 8> corners = corners_of(object, plane);
   const cv::Scalar& colour = object.measured ? kObjectColour : kPredictedColour;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -127,8 +131,8 @@ void draw_object(const Canvas& canvas, const RoadPlane& plane, const ObjectFigur
 }
 
 /// Labels the near objects first: where there is no room, it is the far ones that go without.
-void label_objects(const Canvas& canvas, const RoadPlane& plane, std::vector<ObjectFigure> objects,
-                   LabelPlacer* labels) {
+void label_objects(const Canvas& canvas, const PlaneFigure& plane,
+                   std::vector<ObjectFigure> objects, LabelPlacer* labels) {
   std::sort(objects.begin(), objects.end(), [](const ObjectFigure& a, const ObjectFigure& b) {
     return a.place_m.squaredNorm() < b.place_m.squaredNorm();
   });
@@ -142,6 +146,28 @@ void label_objects(const Canvas& canvas, const RoadPlane& plane, std::vector<Obj
     }
     if (!anchor || object.label.empty()) continue;
     labels->place(object.label, *anchor, object.measured ? kObjectColour : kPredictedColour);
+  }
+}
+
+/// Kinds differ in shape as well as in colour: dots, crosses, squares and small dots.
+void draw_feature(const Canvas& canvas, const Feature& feature) {
+  const cv::Point2d at = to_point(feature.px.cast<double>());
+  const int unit = canvas.style.line_width;
+  cv::Mat& picture = *canvas.picture;
+  switch (feature.kind) {
+    case FeatureKind::kStatic:
+      cv::circle(picture, at, unit, kStaticColour, cv::FILLED, cv::LINE_AA);
+      break;
+    case FeatureKind::kMoving:
+      cv::drawMarker(picture, at, kMovingColour, cv::MARKER_TILTED_CROSS, 5 * unit, unit,
+                     cv::LINE_AA);
+      break;
+    case FeatureKind::kAttached:
+      cv::drawMarker(picture, at, kAttachedColour, cv::MARKER_SQUARE, 5 * unit, unit, cv::LINE_AA);
+      break;
+    case FeatureKind::kUndecided:
+      cv::circle(picture, at, (unit + 1) / 2, kUndecidedColour, cv::FILLED, cv::LINE_AA);
+      break;
   }
 }
 
@@ -178,7 +204,7 @@ void draw_path(const Canvas& canvas, const std::vector<Eigen::Vector2d>& path_m)
 
 }  // namespace
 
-double horizon_row_px(const CameraModel& camera, const RoadPlane& plane) {
+double horizon_row_px(const CameraModel& camera, const PlaneFigure& plane) {
   return camera.cy_px - camera.fy_px * plane.normal_cam.z() / plane.normal_cam.y();
 }
 
@@ -190,6 +216,7 @@ cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera, const Frame
   LabelPlacer labels(&picture, style);
   const bool has_path = figures.path_m.size() > 1;
   if (has_path) labels.reserve(path_box(picture));
+  for (const Feature& feature : figures.features) draw_feature(canvas, feature);
   if (figures.plane) {
     draw_road(canvas, *figures.plane);
     for (const ObjectFigure& object : figures.objects) draw_object(canvas, *figures.plane, object);
@@ -199,13 +226,18 @@ cv::Mat draw_overlay(const cv::Mat& grey, const CameraModel& camera, const Frame
   if (has_path) draw_path(canvas, figures.path_m);
   std::vector<StripItem> words;
   for (const std::string& line : figures.lines) words.push_back({line, false, {}});
-  return with_strip(picture, style,
-                    {words,
-                     {{"road grid", true, kRoadColour},
-                      {"horizon", true, kHorizonColour},
-                      {"object measured", true, kObjectColour},
-                      {"object predicted", true, kPredictedColour},
-                      {"path from above", true, kPathColour}}});
+  std::vector<StripItem> key = {{"road grid", true, kRoadColour},
+                                {"horizon", true, kHorizonColour},
+                                {"object measured", true, kObjectColour},
+                                {"object predicted", true, kPredictedColour},
+                                {"path from above", true, kPathColour}};
+  if (!figures.features.empty()) {
+    key.push_back({"feature static", true, kStaticColour});
+    key.push_back({"moving", true, kMovingColour});
+    key.push_back({"attached", true, kAttachedColour});
+    key.push_back({"undecided", true, kUndecidedColour});
+  }
+  return with_strip(picture, style, {words, key});
 }
 
 }  // namespace plumb

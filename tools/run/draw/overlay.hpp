@@ -1,4 +1,4 @@
-/// Draws the results for a frame onto it: road grid, horizon, objects, figures and path.
+/// Draws the results for a frame onto it: road grid, horizon, objects, features, figures and path.
 ///
 /// Frames:
 ///   cam: x right, y down, z forward. The plane's normal points DOWN: n . X = h.
@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "core/camera_model.hpp"
+#include "modules/vo/vo.hpp"
 
 namespace plumb {
 
-struct RoadPlane {
+struct PlaneFigure {
   Eigen::Vector3d normal_cam = Eigen::Vector3d::UnitY();  ///< unit, down
   double height_m = 0.0;
 };
@@ -29,9 +30,10 @@ struct ObjectFigure {
 };
 
 struct FrameFigures {
-  std::optional<RoadPlane> plane;       ///< absent while it is not valid
+  std::optional<PlaneFigure> plane;     ///< absent while it is not valid
   std::vector<Eigen::Vector2d> path_m;  ///< (x right, z forward) of the world frame, oldest first
   std::vector<ObjectFigure> objects;    ///< drawn where the plane is valid
+  std::vector<Feature> features;        ///< the key names their kinds when there are any
   std::vector<std::string> lines;       ///< text, top to bottom
 };
 
@@ -41,6 +43,6 @@ struct FrameFigures {
                                    const FrameFigures& figures);
 
 /// Pixel where the plane's vanishing line crosses the column through the principal point.
-[[nodiscard]] double horizon_row_px(const CameraModel& camera, const RoadPlane& plane);
+[[nodiscard]] double horizon_row_px(const CameraModel& camera, const PlaneFigure& plane);
 
 }  // namespace plumb

@@ -7,6 +7,7 @@
 #include "modules/camera/image_wire.hpp"
 #include "modules/chain/chain.hpp"
 #include "modules/datasets/text.hpp"
+#include "modules/vo/vo_wire.hpp"
 #include "platform/bounded_decode.hpp"
 #include "platform/config.hpp"
 #include "platform/log_file.hpp"
@@ -24,6 +25,14 @@ bool holds_results(const std::string& path) {
     if (event.channel == kEgoMotion.name) return true;
   }
   return false;
+}
+
+/// Takes what is wanted of a motion besides its row in the table.
+void take_motion(const vo_motion_t& motion, FrameResult* frame) {
+  frame->interval_s = motion.interval_s;
+  VoOutput output;
+  if (from_wire(motion, &output) != nullptr) return;
+  frame->features.assign(output.features.begin(), output.features.end());
 }
 
 /// Takes the results that a log holds, in whatever order they were recorded.
@@ -84,7 +93,7 @@ class RecordedResults {
 
   void keep(const vo_motion_t& message, FrameResult* frame) {
     motions_[{frame->capture_us, frame->seq}] = message;
-    frame->interval_s = message.interval_s;
+    take_motion(message, frame);
   }
   static void keep(const ground_plane_t& message, FrameResult* frame) { frame->plane = message; }
   static void keep(const ego_motion_t& message, FrameResult* frame) { frame->ego = message; }
@@ -154,7 +163,7 @@ void add_record(const FrameRecord& record, DriveResults* drive) {
   FrameResult* frame = drive->add(record.capture_us, record.seq);
   if (record.plane != nullptr) frame->plane = *record.plane;
   if (record.ego != nullptr) frame->ego = *record.ego;
-  if (record.vo != nullptr) frame->interval_s = record.vo->interval_s;
+  if (record.vo != nullptr) take_motion(*record.vo, frame);
   frame->csv_row = frame_csv_row(record, false);
 }
 

@@ -4,7 +4,7 @@
 /// Errors:
 ///   Functions throw LogError, ConfigError, or InputError.
 /// Memory:
-///   About 4 kB per image.
+///   About 10 kB per image.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 
 #include "core/camera_model.hpp"
 #include "core/numbers.hpp"
+#include "modules/vo/vo.hpp"
 #include "plumb/ego_motion_t.hpp"
 #include "plumb/ground_plane_t.hpp"
 #include "plumb/objects_t.hpp"
@@ -29,8 +30,9 @@ struct FrameResult {
   std::optional<ego_motion_t> ego;      ///< absent when the image gave no motion
   std::optional<ground_plane_t> plane;  ///< likewise
   std::optional<objects_t> objects;
-  double interval_s = kNan;  ///< from the previous image, by VO_MOTION; NaN when unknown
-  std::string csv_row;       ///< as of plumb-replay --csv --no-times
+  double interval_s = kNan;       ///< from the previous image, by VO_MOTION; NaN when unknown
+  std::vector<Feature> features;  ///< of the image
+  std::string csv_row;            ///< as of plumb-replay --csv --no-times
   std::vector<process_health_t> health;  ///< that came after this image and before the next
 };
 

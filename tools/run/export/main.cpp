@@ -1,5 +1,5 @@
 /// plumb-export: takes the results of a drive to other tools: trajectories for evo, a table, MCAP
-/// for Foxglove and PlotJuggler, a bag for ROS 2.
+/// for Foxglove and PlotJuggler, a bag for ROS 2, a video with the results drawn.
 
 #include <filesystem>
 #include <iostream>
@@ -16,6 +16,7 @@
 #include "tools/run/export/foxglove_file.hpp"
 #include "tools/run/export/ros2_file.hpp"
 #include "tools/run/export/trajectory.hpp"
+#include "tools/run/export/video_file.hpp"
 #include "tools/run/replay/frame_csv.hpp"
 #include "tools/run/replay/text_output.hpp"
 #include "tools/support/stop_flag.hpp"
@@ -31,18 +32,20 @@ is in each file. Of a damaged log, everything intact is exported; what was wrong
 Examples
   plumb-export drive.lcm --tum drive.tum --mcap drive.mcap
   plumb-export drive.lcm --ros2 drive_ros2.mcap
+  plumb-export drive.lcm --video drive.mp4
   plumb-export 05.lcm --replay --config vehicle.toml --frame vehicle --kitti 05.txt)";
 
 struct ExportArguments {
   DriveOptions drive;
-  std::string tum, kitti, csv, mcap, ros2;
+  std::string tum, kitti, csv, mcap, ros2, video;
   std::string frame = "camera";
 };
 
 void refuse_wrong_files(const ExportArguments& arguments) {
   if (arguments.tum.empty() && arguments.kitti.empty() && arguments.csv.empty() &&
-      arguments.mcap.empty() && arguments.ros2.empty())
-    throw InputError("nothing to write: give --tum, --kitti, --csv, --mcap or --ros2");
+      arguments.mcap.empty() && arguments.ros2.empty() && arguments.video.empty())
+    throw InputError("nothing to write: give --tum, --kitti, --csv, --mcap, --ros2 or --video");
+  if (!arguments.video.empty()) check_video_name(arguments.video);
   OverwriteGuard()
       .reads("LOG", arguments.drive.log)
       .reads("--config", arguments.drive.config)
@@ -51,6 +54,7 @@ void refuse_wrong_files(const ExportArguments& arguments) {
       .writes("--csv", arguments.csv)
       .writes("--mcap", arguments.mcap)
       .writes("--ros2", arguments.ros2)
+      .writes("--video", arguments.video)
       .check();
 }
 
@@ -88,10 +92,11 @@ int run(const ExportArguments& arguments) {
   std::vector<std::unique_ptr<DriveSink>> files;
   if (!arguments.mcap.empty()) files.push_back(make_foxglove_file(drive, arguments.mcap));
   if (!arguments.ros2.empty()) files.push_back(make_ros2_file(drive, arguments.ros2));
+  if (!arguments.video.empty()) files.push_back(make_video_file(drive, arguments.video));
   std::vector<DriveSink*> sinks;
   for (const auto& file : files) sinks.push_back(file.get());
   export_drive(arguments.drive.log, drive, sinks);
-  for (const std::string& path : {arguments.mcap, arguments.ros2}) {
+  for (const std::string& path : {arguments.mcap, arguments.ros2, arguments.video}) {
     if (!path.empty()) print_size(path);
   }
   std::cout.flush();
@@ -117,6 +122,8 @@ int main(int argc, char** argv) {
   app.add_option("--csv", arguments.csv, "table to write, one row per image, as of plumb-replay");
   app.add_option("--mcap", arguments.mcap, "MCAP file to write for Foxglove and PlotJuggler");
   app.add_option("--ros2", arguments.ros2, "ROS 2 bag to write, in MCAP");
+  app.add_option("--video", arguments.video,
+                 "video to write, .mp4 or .avi, with the results drawn onto the images");
   app.add_flag("--replay", arguments.drive.replay, "replay also a log that holds results");
   app.add_option("--config", arguments.drive.config, "TOML configuration of the replay");
   app.add_option("--seed", arguments.drive.seed, "seed of the replay").capture_default_str();

@@ -16,6 +16,7 @@
 #include "platform/log.hpp"
 #include "platform/log_file.hpp"
 #include "platform/overwrite_guard.hpp"
+#include "tools/run/replay/features_csv.hpp"
 #include "tools/run/replay/frame_csv.hpp"
 #include "tools/run/replay/objects_csv.hpp"
 #include "tools/run/replay/pose_track.hpp"
@@ -38,7 +39,7 @@ Examples
   plumb-replay drive.lcm --config vehicle.toml --seed 7 --poses drive.txt)";
 
 struct Arguments {
-  std::string log, poses, csv, objects, can, config;
+  std::string log, poses, csv, objects, features, can, config;
   std::uint64_t seed = 1;
   bool no_times = false;
 };
@@ -50,9 +51,11 @@ class Outputs {
       : with_times_(!arguments.no_times),
         poses_(arguments.poses),
         csv_(arguments.csv),
-        objects_(arguments.objects) {
+        objects_(arguments.objects),
+        features_(arguments.features) {
     csv_.row(frame_csv_header(with_times_));
     objects_.row(objects_csv_header());
+    features_.row(features_csv_header());
     if (arguments.can.empty()) return;
     can_.emplace(arguments.can, "can0");
     check_can();
@@ -62,6 +65,9 @@ class Outputs {
     statuses_.add(record);
     poses_.row(track_.row(record.ego));
     if (csv_.wanted()) csv_.row(frame_csv_row(record, with_times_));
+    const int num_features =
+        features_.wanted() && record.vo != nullptr ? record.vo->num_features : 0;
+    for (int i = 0; i < num_features; ++i) features_.row(features_csv_row(*record.vo, i));
     check_can();
   }
 
@@ -74,6 +80,7 @@ class Outputs {
     poses_.close();
     csv_.close();
     objects_.close();
+    features_.close();
     if (can_) can_->flush();
     check_can();
   }
@@ -90,6 +97,7 @@ class Outputs {
   TextOutput poses_;
   TextOutput csv_;
   TextOutput objects_;
+  TextOutput features_;
   std::optional<CanTraceWriter> can_;
   PoseTrack track_;
   StatusCount statuses_;
@@ -159,6 +167,7 @@ void refuse_overwriting(const Arguments& arguments) {
       .writes("--poses", arguments.poses)
       .writes("--csv", arguments.csv)
       .writes("--objects", arguments.objects)
+      .writes("--features", arguments.features)
       .writes("--can", arguments.can)
       .check();
 }
@@ -188,6 +197,8 @@ void add_options(CommandLine* app, Arguments* arguments) {
   app->add_option("--csv", arguments->csv, "table to write, one row per image");
   app->add_option("--objects", arguments->objects,
                   "table to write, one row per object and image on DETECTIONS");
+  app->add_option("--features", arguments->features,
+                  "table to write, one row per feature and image, with its kind");
   app->add_option("--can", arguments->can, "CAN trace to write, as candump -L");
   app->add_option("--config", arguments->config, "TOML configuration");
   app->add_option("--seed", arguments->seed, "seed of the random sampling").capture_default_str();

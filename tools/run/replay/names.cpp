@@ -19,6 +19,7 @@ const char* name_in(const std::array<const char*, kSize>& names, int number) {
 
 const char* vo_status_name(int status) { return name_in(kVoMotionStatusNames, status); }
 const char* vo_reason_name(int reason) { return name_in(kVoMotionReasonNames, reason); }
+const char* feature_kind_name(int kind) { return name_in(kVoMotionFeatureNames, kind); }
 const char* plane_status_name(int status) { return name_in(kGroundPlaneStatusNames, status); }
 const char* plane_reason_name(int reason) { return name_in(kGroundPlaneReasonNames, reason); }
 const char* cue_status_name(int status) { return name_in(kGroundCueStatusNames, status); }

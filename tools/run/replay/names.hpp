@@ -6,6 +6,7 @@ namespace plumb {
 
 [[nodiscard]] const char* vo_status_name(int status);
 [[nodiscard]] const char* vo_reason_name(int reason);
+[[nodiscard]] const char* feature_kind_name(int kind);
 [[nodiscard]] const char* plane_status_name(int status);
 [[nodiscard]] const char* plane_reason_name(int reason);
 [[nodiscard]] const char* cue_status_name(int status);
