@@ -17,6 +17,7 @@ OPERATORS = {'+': ('plus', '-'), '-': ('minus', '+'), '*': ('times', '/'), '/': 
              '>>': ('right_shift', '<<'), '==': ('equal', '!='), '!=': ('unequal', '==')}
 JOINED = {'&&': ('both', '||'), '||': ('either', '&&')}
 COMPOUND = {'+=': '-=', '-=': '+=', '*=': '/=', '/=': '*=', '|=': '&=', '&=': '|=', '^=': '&=', '<<=': '>>=', '>>=': '<<='}
+OVERLOADED = {'operator' + text for text in (*COMPARISONS, *OPERATORS, *COMPOUND)}
 FUNCTIONS = (Kind.CXX_METHOD, Kind.FUNCTION_DECL, Kind.CONSTRUCTOR, Kind.DESTRUCTOR)
 STATEMENTS = (Kind.CALL_EXPR, Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR, Kind.UNARY_OPERATOR)
 HOLDERS = (Kind.COMPOUND_STMT, Kind.IF_STMT, Kind.FOR_STMT, Kind.WHILE_STMT, Kind.CXX_FOR_RANGE_STMT, Kind.CASE_STMT,
@@ -130,7 +131,8 @@ class Mutator:
         out, at = [], start
         for child in sorted(cursor.get_children(), key=self.extent):
             first, last = self.extent(child)
-            if first < at or last > end or first == last:
+            # An operator whose sides C++20 exchanged ends before it begins.
+            if first < at or last > end or first >= last:
                 continue
             if cursor.kind == Kind.CASE_STMT and at == start:
                 out.append(self.raw(at, last))  # the label
@@ -143,15 +145,26 @@ class Mutator:
         start, end = self.extent(cursor)
         if cursor.kind in (Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR):
             return self.binary(cursor, start, end)
+        if cursor.kind == Kind.CALL_EXPR and cursor.spelling in OVERLOADED:
+            return self.overloaded(cursor, start, end)
         text = self.children_text(cursor, start, end)
         if cursor.kind in (Kind.INTEGER_LITERAL, Kind.FLOATING_LITERAL):
             number = self.add(cursor, f'{text} + 1')
             return f'plumb_mutant::number({number}, {text})' if number else text
         if cursor.kind == Kind.CXX_BOOL_LITERAL_EXPR or (
-                cursor.kind == Kind.UNARY_OPERATOR and self.source[start:start + 1] == b'!'):
+                cursor.kind == Kind.UNARY_OPERATOR and self.raw(start, start + 1) == '!' and
+                self.raw(start, start + 2) != '!='):
             number = self.add(cursor, f'not {self.brief(cursor)}')
             return f'plumb_mutant::flip({number}, static_cast<bool>({text}))' if number else text
         return text
+
+    def overloaded(self, cursor, start, end):
+        """An operator of a class: only a comparison has a mutant, and nothing inside."""
+        text = self.raw(start, end)
+        if cursor.spelling not in ('operator==', 'operator!='):
+            return text
+        number = self.add(cursor, f'not {self.brief(cursor)}')
+        return f'plumb_mutant::flip({number}, static_cast<bool>({text}))' if number else text
 
     def binary(self, cursor, start, end):
         sides = list(cursor.get_children())

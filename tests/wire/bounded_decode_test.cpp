@@ -192,7 +192,7 @@ TEST(BoundedDecode, RefusesTextsOfHealthThatDoNotEnd) {
     if (length < 2 || length > 6 || i + 4 + static_cast<std::size_t>(length) > whole.size())
       continue;
     const std::size_t last = i + 3 + static_cast<std::size_t>(length);
-    if (whole[last] != 0 || whole[last - 1] < 'A' && whole[last - 1] != '1') continue;
+    if (whole[last] != 0 || (whole[last - 1] < 'A' && whole[last - 1] != '1')) continue;
     Octets broken = whole;
     broken[last] = 'x';
     EXPECT_FALSE(is_accepted<process_health_t>(broken)) << "text at byte " << i;

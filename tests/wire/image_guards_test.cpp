@@ -2,6 +2,8 @@
 // inside and the first one outside.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -163,16 +165,18 @@ TEST(ImageGuards, RefusesARowThatIsShorterThanTheImage) {
 
 /// A start of image, `segments`, and the header of a frame.
 Octets jpeg_bytes(unsigned frame_marker, int width, int height, const Octets& segments = {}) {
-  Octets bytes = {0xFF, 0xD8};
-  bytes.insert(bytes.end(), segments.begin(), segments.end());
   const auto high = [](int value) { return static_cast<std::uint8_t>(value >> 8); };
   const auto low = [](int value) { return static_cast<std::uint8_t>(value & 0xFF); };
-  const Octets header = {0xFF,        static_cast<std::uint8_t>(frame_marker),
-                         0,           11,
-                         8,           high(height),
-                         low(height), high(width),
-                         low(width)};
-  bytes.insert(bytes.end(), header.begin(), header.end());
+  const std::array<std::uint8_t, 9> header = {0xFF,        static_cast<std::uint8_t>(frame_marker),
+                                              0,           11,
+                                              8,           high(height),
+                                              low(height), high(width),
+                                              low(width)};
+  Octets bytes(2 + segments.size() + header.size());
+  bytes[0] = 0xFF;
+  bytes[1] = 0xD8;
+  const auto end = std::copy(segments.begin(), segments.end(), bytes.begin() + 2);
+  std::copy(header.begin(), header.end(), end);
   return bytes;
 }
 
@@ -269,8 +273,9 @@ std::string calibration_refusal(const std::function<void(CameraModel*)>& change)
   change(&camera);
   CameraModel out;
   const char* why = from_wire(to_wire(camera, 5), &out);
-  if (why == nullptr) EXPECT_TRUE(same_camera(camera, out));
-  return why == nullptr ? "" : why;
+  if (why != nullptr) return why;
+  EXPECT_TRUE(same_camera(camera, out));
+  return "";
 }
 
 /// A member is accepted from `low` to `high`, and refused `step` beyond, with its own reason.
