@@ -86,7 +86,7 @@ void send_broken_packets(const RawSender& out, std::mt19937* random) {
       out.send(packet);
     }
   for (int i = 0; i < 500; ++i) {
-    Bytes nonsense = test::pattern((*random)() % 1400, (*random)());
+    Bytes nonsense = test::pattern((*random)() % 1400, static_cast<std::uint32_t>(i));
     if (nonsense.size() >= 4 && i % 2 == 0) std::copy_n("LC02", 4, nonsense.begin());
     out.send(nonsense);
   }
@@ -110,7 +110,7 @@ void send_changed_messages(const RawSender& out, const std::map<std::string, Byt
   for (int i = 0; i < 3000; ++i) {
     const auto& [channel, good] = *std::next(messages.begin(), (*random)() % messages.size());
     Bytes message = good;
-    const std::uint32_t how = (*random)() % 5;
+    const auto how = (*random)() % 5;
     if (how == 0) message.resize((*random)() % (message.size() + 1));
     if (how == 1) message.resize(message.size() + 1 + (*random)() % 500);
     const bool is_noise = how == 2;
