@@ -14,7 +14,8 @@ target_compile_options(plumb_strict INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror
   -fno-math-errno -fno-trapping-math -ffp-contract=off
   $<$<CONFIG:Debug>:-DEIGEN_INITIALIZE_MATRICES_BY_NAN>
-  $<$<BOOL:${PLUMB_SANITIZE}>:${sanitizers} -fno-omit-frame-pointer>)
+  $<$<BOOL:${PLUMB_SANITIZE}>:${sanitizers} -fno-omit-frame-pointer>
+  $<$<BOOL:${PLUMB_FUZZ}>:-fsanitize=fuzzer-no-link -fno-sanitize-recover=all>)
 # An error in the handling of memory ends a program instead of being used by somebody: canaries on
 # the stack, checked copies, marked targets of jumps, tables that are read-only after the start.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64")

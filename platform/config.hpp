@@ -123,13 +123,18 @@ template <typename Config>
 }
 
 /// Fills `config` from the file `path`, whose keys replace the values that are there. An empty path
-/// changes nothing. Throws ConfigError.
+/// changes nothing. Throws ConfigError, also when the values together contradict each other, where
+/// `Config` has a contradiction() that says so.
 template <typename Config>
 void load_config(const std::string& path, Config* config) {
   if (path.empty()) return;
   ConfigFile file = ConfigFile::load(path);
   Config::visit(*config, ConfigReader(&file));
   file.refuse_unread();
+  if constexpr (requires { config->contradiction(); }) {
+    const std::string why = config->contradiction();
+    if (!why.empty()) throw ConfigError(path + ": " + why);
+  }
 }
 
 }  // namespace plumb

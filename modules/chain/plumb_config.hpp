@@ -54,6 +54,17 @@ struct PlumbConfig {
     VehicleSpeedConfig::visit(c.vehicle_speed, field);
     CanConfig::visit(c.can, field);
   }
+
+  /// Which two limits contradict each other, as a sentence; empty when none do.
+  [[nodiscard]] std::string contradiction() const {
+    if (ground.road_near_m >= ground.road_far_m)
+      return "ground.road_near_m is not below ground.road_far_m";
+    if (vehicle.min_height_m >= vehicle.max_height_m)
+      return "vehicle.min_height_m is not below vehicle.max_height_m";
+    if (camera.retry_min_s > camera.retry_max_s)
+      return "camera.retry_min_s is above camera.retry_max_s";
+    return "";
+  }
 };
 
 }  // namespace plumb

@@ -25,7 +25,8 @@ struct NumberRow {
 /// Splits `line` at its commas and removes the blanks around each cell. Quotes have no meaning.
 [[nodiscard]] std::vector<std::string_view> split_cells(std::string_view line);
 
-/// Reads every line of a text file, without line ends. Throws InputError when it cannot be read.
+/// Reads every line of a text file, without line ends and without the byte order mark that some
+/// editors put before the first one. Throws InputError when it cannot be read.
 [[nodiscard]] std::vector<std::string> read_lines(const std::filesystem::path& path);
 
 /// Reads every row of `path` and skips empty lines and comments. Throws InputError for an

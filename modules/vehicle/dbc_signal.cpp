@@ -1,5 +1,7 @@
 #include "modules/vehicle/dbc_signal.hpp"
 
+#include <cmath>
+
 namespace plumb {
 
 int DbcSignal::place_of_bit(int i) const {
@@ -26,6 +28,7 @@ std::optional<double> DbcSignal::value(const CanFrame& frame) const {
   const double physical = factor * number + offset;
   const bool ranged = min != 0.0 || max != 0.0;
   if (ranged && !(physical >= min && physical <= max)) return std::nullopt;
+  if (!std::isfinite(physical)) return std::nullopt;
   return physical;
 }
 

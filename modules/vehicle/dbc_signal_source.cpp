@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -50,7 +51,10 @@ bool read_signal_row(const DbcLine& line, const std::string& wanted, const std::
           : std::sscanf(colon, ": %d|%d@%d%c (%lf,%lf) [%lf|%lf] \"%127[^\"]\"", &signal->start_bit,
                         &signal->num_bits, &order, &sign, &signal->factor, &signal->offset,
                         &signal->min, &signal->max, unit.data());
-  if (num_read < 8) throw InputError(at + ": the row of the signal " + wanted + " cannot be read");
+  const bool is_finite = std::isfinite(signal->factor) && std::isfinite(signal->offset) &&
+                         std::isfinite(signal->min) && std::isfinite(signal->max);
+  if (num_read < 8 || !is_finite)
+    throw InputError(at + ": the row of the signal " + wanted + " cannot be read");
   signal->is_intel = order == 1;
   signal->is_signed = sign == '-';
   signal->unit = unit.data();

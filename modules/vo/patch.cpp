@@ -75,9 +75,9 @@ template <int kHalf>
 bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px,
                        const Eigen::Matrix2f& A) {
   // The corners of the template bound the parallelogram in the image.
-  constexpr float kReach = kHalf + 1;
-  const float reach_u = kReach * (std::abs(A(0, 0)) + std::abs(A(0, 1)));
-  const float reach_v = kReach * (std::abs(A(1, 0)) + std::abs(A(1, 1)));
+  constexpr float kTemplateReach = kHalf + 1;
+  const float reach_u = kTemplateReach * (std::abs(A(0, 0)) + std::abs(A(0, 1)));
+  const float reach_v = kTemplateReach * (std::abs(A(1, 0)) + std::abs(A(1, 1)));
   if (!(px.x() - reach_u >= 1.0F && px.y() - reach_v >= 1.0F &&
         px.x() + reach_u <= static_cast<float>(image.width_px - 3) &&
         px.y() + reach_v <= static_cast<float>(image.height_px - 3))) {
@@ -90,9 +90,9 @@ bool Patch<kHalf>::cut(const ImageView& image, const Eigen::Vector2f& px,
   alignas(32) Raw raw{};
   int grey[kRawSize];
   for (int j = 0; j < kRawSize; ++j) {
-    const float y = static_cast<float>(j) - kReach;
-    auto u = static_cast<int>((px.x() + A(0, 1) * y - A(0, 0) * kReach) * kFixed) + 128;
-    auto v = static_cast<int>((px.y() + A(1, 1) * y - A(1, 0) * kReach) * kFixed) + 128;
+    const float y = static_cast<float>(j) - kTemplateReach;
+    auto u = static_cast<int>((px.x() + A(0, 1) * y - A(0, 0) * kTemplateReach) * kFixed) + 128;
+    auto v = static_cast<int>((px.y() + A(1, 1) * y - A(1, 0) * kTemplateReach) * kFixed) + 128;
     for (int i = 0; i < kRawSize; ++i, u += du, v += dv) {
       grey[i] = bilinear_fixed(image, u >> 8, v >> 8);
     }

@@ -35,6 +35,14 @@ TEST(NumberFile, LeavesOutCommentsAndEmptyLinesButCountsThem) {
   EXPECT_DOUBLE_EQ(rows[1].values[1], 4.0);
 }
 
+TEST(NumberFile, LeavesOutAByteOrderMark) {
+  const test::TempFolder folder;
+  const auto lines = read_lines(folder.write("a.txt", "\xEF\xBB\xBFP0: 1\n\xEF\xBB\xBF\n"));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0], "P0: 1");
+  EXPECT_EQ(lines[1].size(), 3U) << "it is one in the first line alone";
+}
+
 TEST(NumberFile, NamesFileLineAndWordOfWhatIsNotANumber) {
   const test::TempFolder folder;
   const auto path = folder.write("a.txt", "1 2\n3 nan\n");

@@ -4,12 +4,12 @@
 // The input is a list of orders. An order either hands on raw bytes as a datagram, or describes a
 // fragment in few bytes, so that mutations reach the rules of reassembly without guessing headers.
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <span>
 
 #include "platform/udpm/udpm_inbox.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
 
 namespace plumb {
 namespace {
@@ -17,29 +17,8 @@ namespace {
 constexpr std::size_t kMaxSmall = 64;
 constexpr std::size_t kMaxLarge = 8'192;
 
-void require(bool is_true) {
-  if (!is_true) std::abort();
-}
-
-class Orders {
- public:
-  explicit Orders(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  [[nodiscard]] bool is_empty() const { return bytes_.empty(); }
-  std::uint8_t byte() {
-    if (bytes_.empty()) return 0;
-    const std::uint8_t first = bytes_.front();
-    bytes_ = bytes_.subspan(1);
-    return first;
-  }
-  std::span<const std::uint8_t> bytes(std::size_t count) {
-    const auto part = bytes_.first(std::min(count, bytes_.size()));
-    bytes_ = bytes_.subspan(part.size());
-    return part;
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-};
+using fuzz::Orders;
+using fuzz::require;
 
 class Fuzzed {
  public:
@@ -87,12 +66,10 @@ class Fuzzed {
     take(source, {datagram.begin(), end});
   }
 
-  /// Hands on a copy that ends where its memory ends, so that AddressSanitizer sees reads beyond.
   void take(const UdpmSource& source, std::span<const std::uint8_t> bytes) {
-    const std::unique_ptr<std::uint8_t[]> copy(new std::uint8_t[bytes.size()]);
-    std::copy(bytes.begin(), bytes.end(), copy.get());
+    const fuzz::TightCopy copy(bytes);
     ++num_packets_;
-    const UdpmOutcome outcome = inbox_.take_packet(source, {copy.get(), bytes.size()}, ++clock_us_);
+    const UdpmOutcome outcome = inbox_.take_packet(source, copy.bytes(), ++clock_us_);
     require(describe(outcome) != nullptr);
   }
 
@@ -134,6 +111,6 @@ class Fuzzed {
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  plumb::Fuzzed().run(plumb::Orders({data, size}));
+  plumb::Fuzzed().run(plumb::fuzz::Orders({data, size}));
   return 0;
 }

@@ -154,6 +154,27 @@ TEST(Config, WritesRangeAndMeaningBesideEveryKey) {
   EXPECT_NE(std::string::npos, text.find("one of \"pinhole\", \"fisheye\" lens\n")) << text;
 }
 
+TEST(Config, RefusesLimitsThatContradictEachOther) {
+  const auto refusal_of_all = [](const std::string& text) {
+    const test::TempFile file(".toml", text);
+    PlumbConfig config;
+    try {
+      load_config(file.path(), &config);
+    } catch (const ConfigError& error) {
+      return std::string(error.what()).substr(file.path().size());
+    }
+    return std::string();
+  };
+  EXPECT_EQ("", refusal_of_all("[ground]\nroad_near_m = 9\nroad_far_m = 9.1\n"));
+  EXPECT_EQ(": ground.road_near_m is not below ground.road_far_m",
+            refusal_of_all("[ground]\nroad_near_m = 9\nroad_far_m = 9\n"));
+  EXPECT_EQ(": vehicle.min_height_m is not below vehicle.max_height_m",
+            refusal_of_all("[vehicle]\nmin_height_m = 3\nmax_height_m = 2\n"));
+  EXPECT_EQ("", refusal_of_all("[camera]\nretry_min_s = 3\nretry_max_s = 3\n"));
+  EXPECT_EQ(": camera.retry_min_s is above camera.retry_max_s",
+            refusal_of_all("[camera]\nretry_min_s = 3\nretry_max_s = 2\n"));
+}
+
 TEST(Config, DefaultTomlIsTheGeneratedText) {
   std::ifstream in(std::string(PLUMB_SOURCE_DIR) + "/config/default.toml", std::ios::binary);
   const std::string committed{std::istreambuf_iterator<char>(in), {}};

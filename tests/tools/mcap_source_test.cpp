@@ -266,5 +266,24 @@ TEST(McapSource, DamageEndsInASentence) {
   }
 }
 
+TEST(McapSource, AChunkTakesNoMoreMemoryThanItCanHold) {
+  const test::TempFolder folder;
+  for (const char* compression : {"", "zstd", "lz4"}) {
+    Bytes chunk;
+    put(0, 8, &chunk);
+    put(0, 8, &chunk);
+    put(1U << 30U, 8, &chunk);  // its size, unpacked
+    put(0, 4, &chunk);
+    put_text(compression, &chunk);
+    put(3, 8, &chunk);
+    put(0, 3, &chunk);
+    Bytes file = kMagic;
+    put_record(0x06, chunk, &file);
+    const auto path = folder.write("bag.mcap", {file.begin(), file.end()});
+    test::expect_contains(test::input_error_of([&] { McapSource(path, ""); }),
+                          "a chunk states more than it holds");
+  }
+}
+
 }  // namespace
 }  // namespace plumb

@@ -28,6 +28,8 @@ BO_ 400 Motion: 8 ECU
  SG_ Wide : 60|8@1+ (1,0) [0|0] "m/s" ECU
  SG_ Gear : 40|4@1+ (1,0) [0|0] "gears" ECU
  SG_ Torn : 40|4@1+ (1,0) [0|
+ SG_ Endless : 40|4@1+ (nan,0) [0|0] "m/s" ECU
+ SG_ Huge : 40|4@1+ (1e308,0) [0|0] "m/s" ECU
 )";
 
 CanFrame frame_of(std::uint32_t id, std::initializer_list<int> bytes) {
@@ -68,6 +70,9 @@ TEST(DbcSignal, GivesNothingForWhatTheVehicleDoesNotKnow) {
   EXPECT_FALSE(signal.value(frame_of(180, {0, 0, 0, 0, 0, 0xFF, 0xFF, 0}))) << "655 km/h";
   EXPECT_FALSE(signal.value(frame_of(180, {0, 0, 0, 0, 0, 0x12}))) << "a short frame";
   EXPECT_FALSE(signal.value(frame_of(181, {0, 0, 0, 0, 0, 0x12, 0x34, 0}))) << "another frame";
+  const DbcSignal huge = find("Motion.Huge");
+  EXPECT_EQ(*huge.value(frame_of(400, {0, 0, 0, 0, 0, 1})), 1e308);
+  EXPECT_FALSE(huge.value(frame_of(400, {0, 0, 0, 0, 0, 2}))) << "beyond all numbers";
 }
 
 TEST(DbcSignal, NamesWhatIsWrong) {
@@ -80,6 +85,7 @@ TEST(DbcSignal, NamesWhatIsWrong) {
   EXPECT_EQ(error("Motion.Fast"),
             "car.dbc:12: the signal Fast is multiplexed; name one that always holds");
   EXPECT_EQ(error("Motion.Torn"), "car.dbc:16: the row of the signal Torn cannot be read");
+  EXPECT_EQ(error("Motion.Endless"), "car.dbc:17: the row of the signal Endless cannot be read");
 }
 
 TEST(SpeedSignal, IsInMetresPerSecond) {

@@ -19,7 +19,7 @@ constexpr int kNumCueBits = 3;
 int cues_used(const Plane& m) {
   int bits = 0;
   for (int i = 0; i < std::min<int>(m.num_cues, kNumCueBits); ++i) {
-    if (m.cues[i].status == ground_cue_t::STATUS_USED) bits += 1 << i;
+    if (m.cues[static_cast<std::size_t>(i)].status == ground_cue_t::STATUS_USED) bits += 1 << i;
   }
   return bits;
 }

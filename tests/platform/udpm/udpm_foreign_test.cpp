@@ -2,107 +2,47 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
-#include <sched.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
-
-#include <csignal>
-#include <cstdlib>
 
 #include "platform/udpm/udpm_receiver.hpp"
 #include "platform/udpm/udpm_sender.hpp"
 #include "tests/platform/udpm/packets.hpp"
 #include "tests/platform/udpm/stock_lcm.hpp"
+#include "tests/support/other_machine.hpp"
 #include "tests/support/private_network.hpp"
 
 namespace plumb {
 namespace {
 
 using test::Bytes;
+using test::OtherMachine;
+using test::run;
 using test::short_packet;
 using test::wait_for_message;
 
 constexpr const char* kNetwork = "udpm://239.255.76.67:7667?recv_buf_size=4000000";
 
-bool run(const std::string& command) { return std::system(command.c_str()) == 0; }
+bool send_to(const char* to, const char* from, std::uint8_t payload) {
+  const FileDescriptor fd(::socket(AF_INET, SOCK_DGRAM, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  ::inet_pton(AF_INET, from, &address.sin_addr);
+  if (::bind(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return false;
+  address.sin_port = htons(7667);
+  ::inet_pton(AF_INET, to, &address.sin_addr);
+  const Bytes packet = short_packet(1, "CAMERA", {payload});
+  return ::sendto(fd.get(), packet.data(), packet.size(), 0, reinterpret_cast<sockaddr*>(&address),
+                  sizeof address) > 0;
+}
 
-/// A process in a network namespace of its own, 10.7.0.2 to our 10.7.0.1.
-class OtherMachine {
- public:
-  OtherMachine() {
-    int go[2] = {-1, -1};
-    int done[2] = {-1, -1};
-    if (::pipe(go) != 0 || ::pipe(done) != 0) return;
-    pid_ = ::fork();
-    if (pid_ == 0) serve(go[0], done[1]);
-    go_ = FileDescriptor(go[1]);
-    done_ = FileDescriptor(done[0]);
-    ::close(go[0]);
-    ::close(done[1]);
-    char ok = 0;
-    is_connected_ =
-        ::read(done_.get(), &ok, 1) == 1 && ok == 'y' &&
-        run("ip link add here type veth peer name there netns " + std::to_string(pid_)) &&
-        run("ip addr add 10.7.0.1/24 dev here && ip link set here multicast on up && "
-            "ip route add 239.255.76.67/32 dev here") &&
-        order('c');
-  }
-  ~OtherMachine() {
-    ::kill(pid_, SIGKILL);
-    ::waitpid(pid_, nullptr, 0);
-  }
-  OtherMachine(const OtherMachine&) = delete;
-  OtherMachine& operator=(const OtherMachine&) = delete;
-
-  [[nodiscard]] bool is_connected() const { return is_connected_; }
-  /// Sends to the group, to our address, and to the group with our address and none as its source.
-  bool send() { return order('s'); }
-
- private:
-  bool order(char what) {
-    char ok = 0;
-    return ::write(go_.get(), &what, 1) == 1 && ::read(done_.get(), &ok, 1) == 1 && ok == 'y';
-  }
-
-  [[noreturn]] static void serve(int go, int done) {
-    char ok = ::unshare(CLONE_NEWNET) == 0 ? 'y' : 'n';
-    char what = 0;
-    while (::write(done, &ok, 1) == 1 && ::read(go, &what, 1) == 1) {
-      const bool worked = what == 'c' ? run("ip addr add 10.7.0.2/24 dev there && "
-                                            "ip link set there multicast on up && "
-                                            "ip route add 224.0.0.0/4 dev there")
-                                      : send_all();
-      ok = worked ? 'y' : 'n';
-    }
-    ::_exit(0);
-  }
-
-  static bool send_all() {
-    return send_to("239.255.76.67", "10.7.0.2", 1) && send_to("10.7.0.1", "10.7.0.2", 2) &&
-           run("ip addr add 10.7.0.1/32 dev lo && ip link set lo up") &&
-           send_to("239.255.76.67", "10.7.0.1", 3) && run("ip addr del 10.7.0.1/32 dev lo") &&
-           run("ip addr del 10.7.0.2/24 dev there && ip route replace 224.0.0.0/4 dev there") &&
-           send_to("239.255.76.67", "0.0.0.0", 4);
-  }
-
-  static bool send_to(const char* to, const char* from, std::uint8_t payload) {
-    const FileDescriptor fd(::socket(AF_INET, SOCK_DGRAM, 0));
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    ::inet_pton(AF_INET, from, &address.sin_addr);
-    if (::bind(fd.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return false;
-    address.sin_port = htons(7667);
-    ::inet_pton(AF_INET, to, &address.sin_addr);
-    const Bytes packet = short_packet(1, "CAMERA", {payload});
-    return ::sendto(fd.get(), packet.data(), packet.size(), 0,
-                    reinterpret_cast<sockaddr*>(&address), sizeof address) > 0;
-  }
-
-  int pid_ = -1;
-  FileDescriptor go_;
-  FileDescriptor done_;
-  bool is_connected_ = false;
-};
+/// Sends to the group, to our address, and to the group with our address and none as its source.
+bool send_all() {
+  return send_to("239.255.76.67", "10.7.0.2", 1) && send_to("10.7.0.1", "10.7.0.2", 2) &&
+         run("ip addr add 10.7.0.1/32 dev lo && ip link set lo up") &&
+         send_to("239.255.76.67", "10.7.0.1", 3) && run("ip addr del 10.7.0.1/32 dev lo") &&
+         run("ip addr del 10.7.0.2/24 dev there && ip route replace 224.0.0.0/4 dev there") &&
+         send_to("239.255.76.67", "0.0.0.0", 4);
+}
 
 class UdpmForeign : public testing::Test {
  protected:
@@ -114,7 +54,7 @@ class UdpmForeign : public testing::Test {
 };
 
 TEST_F(UdpmForeign, PacketsOfAnotherMachineAreRefusedUnlessItIsNamed) {
-  OtherMachine other;
+  OtherMachine other(send_all);
   if (!other.is_connected()) GTEST_SKIP() << "no second network namespace can be made here";
   UdpmReceiver local_only(parse_udpm_url(kNetwork));
   UdpmReceiver naming(parse_udpm_url(std::string(kNetwork) + "&source=10.7.0.2"));

@@ -191,5 +191,13 @@ TEST(UdpmOutcome, HasATextForEachAndCountsRefusalsApart) {
   EXPECT_EQ(static_cast<std::int64_t>(kNumUdpmOutcomes) - 3, counts.num_refused());
 }
 
+TEST(UdpmPacket, ReadsBothBytesOfFragmentNumberAndCount) {
+  const auto bytes = test::fragment_packet({7, 600'000, 300'000, 0x0102, 0x0304}, {1, 2, 3});
+  UdpmPacket packet;
+  ASSERT_EQ(UdpmOutcome::kFragment, parse_udpm_packet(bytes, &packet));
+  EXPECT_EQ(0x0102, packet.number);
+  EXPECT_EQ(0x0304, packet.count);
+}
+
 }  // namespace
 }  // namespace plumb

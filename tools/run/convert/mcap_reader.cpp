@@ -22,6 +22,13 @@ constexpr std::uint64_t kRecordHead = 9;         ///< opcode and length
 constexpr std::uint64_t kFooterBytes = 9 + 20;   ///< the record
 constexpr std::uint64_t kMaxRecord = 1U << 30U;  ///< a larger one is damage
 
+/// [bytes] The most that `packed` bytes can hold. The densest block of zstd is 128 KiB in four
+/// bytes, and a byte of lz4 stands for 255 at most.
+std::uint64_t most_unpacked(const std::string& compression, std::uint64_t packed) {
+  if (compression == "zstd") return packed * (128U << 10U) / 4;
+  return compression == "lz4" ? packed * 255 : packed;
+}
+
 bool unpack_lz4(std::span<const std::uint8_t> packed, std::span<std::uint8_t> out) {
   LZ4F_dctx* context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION))) return false;
@@ -131,6 +138,7 @@ void McapReader::open_chunk(std::span<const std::uint8_t> content) {
   const std::string compression(cursor.text());
   const auto packed = cursor.take(cursor.number(8));
   if (!cursor.ok() || size > kMaxRecord) fail("a chunk is damaged");
+  if (size > most_unpacked(compression, packed.size())) fail("a chunk states more than it holds");
   chunk_.resize(size);
   chunk_at_ = 0;
   bool good = false;
