@@ -35,6 +35,9 @@ write_unit(vo "visual odometry" 20 128M AFTER " plumb-ground.service")
 # A camera may be plugged in at any time, so it is looked for without end.
 write_unit(camera "the camera" 25 192M AFTER " plumb-vo.service plumb-ground.service"
   LIMIT_INTERVAL 0 RESTART 1s DEVICES "SupplementaryGroups=video\nDeviceAllow=char-video4linux rw\nDevicePolicy=closed")
+# Not every vehicle states its speed on a bus, so the target starts it only where it has been enabled.
+write_unit(vehicle "the vehicle's own speed" 10 24M FAMILIES " AF_CAN" AFTER " plumb-ground.service"
+  OPTIONS " --interface \${VEHICLE_CAN_INTERFACE}")
 foreach(unit plumbline.target plumbline-lcm.service)
   configure_file(${from}/systemd/${unit} ${made}/${unit} @ONLY)
 endforeach()

@@ -29,8 +29,9 @@ Health::Health(const char* process) {
   message_.version = plumb_version();
 }
 
-void Health::set_condition(HealthState state, const char* reason) {
+void Health::set_condition(HealthState state, const char* reason, Output output) {
   condition_ = state;
+  output_ = output;
   assign(&condition_reason_, reason);
 }
 

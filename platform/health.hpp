@@ -26,11 +26,19 @@ class Health {
 
   explicit Health(const char* process);
 
+  /// Whether a degraded process still owes its output (OutputWatch). One whose device or bus is
+  /// gone does not: to start it anew would not help.
+  enum class Output : std::uint8_t { kDue, kExcused };
+
   /// Sets a state that only the process itself knows, such as "no calibration yet". It stays until
   /// clear_condition().
-  void set_condition(HealthState state, const char* reason);
+  void set_condition(HealthState state, const char* reason, Output output = Output::kDue);
   void clear_condition() { condition_ = HealthState::kRunning; }
-  [[nodiscard]] bool has_condition() const { return condition_ != HealthState::kRunning; }
+  /// Is it waiting, or without what it needs for its output?
+  [[nodiscard]] bool is_output_excused() const {
+    return condition_ == HealthState::kWaiting ||
+           (condition_ != HealthState::kRunning && output_ == Output::kExcused);
+  }
 
   /// Builds the message. Without a condition the process is waiting while no message arrives
   /// on a periodic input, and else degraded for a second after it rejected, lost, skipped or missed
@@ -48,6 +56,7 @@ class Health {
 
   process_health_t message_{};
   HealthState condition_ = HealthState::kRunning;
+  Output output_ = Output::kDue;  ///< of the condition
   std::string condition_reason_;
   Counters before_;
   std::string trouble_;

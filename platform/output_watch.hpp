@@ -4,8 +4,8 @@
 /// Rule:
 ///   Output is due when every periodic input has brought a message that was accepted, or always
 ///   when the process publishes by a clock. It is excused while the process itself says what it
-///   lacks: a calibration, its camera. What is due must have been published since the last time
-///   that all was well.
+///   lacks: a calibration, its camera, its bus. A process that is degraded otherwise owes it. What
+///   is due must have been published since the last time that all was well.
 #pragma once
 
 #include <cstdint>

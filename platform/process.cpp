@@ -155,7 +155,7 @@ void Process::Impl::report(Publisher<process_health_t>& publisher) {
   const process_health_t& message = health.report(now_us, counters, *bus, timer);
   publisher.publish(message);
   const char* status = message.state_reason.empty() ? "running" : message.state_reason.c_str();
-  const bool is_well = output.judge(now_us, *bus, counters, health.has_condition());
+  const bool is_well = output.judge(now_us, *bus, counters, health.is_output_excused());
   if (!is_ready) {
     manager.ready(status);  // nothing can have been published yet
     is_ready = true;

@@ -61,7 +61,7 @@ void LiveNode::check_silence(std::int64_t now_us) {
   char sentence[96];
   std::snprintf(sentence, sizeof sentence, "no frame from the camera for %.1f s",
                 static_cast<double>(silent_us) * 1e-6);
-  process_.health().set_condition(HealthState::kDegraded, sentence);
+  process_.health().set_condition(HealthState::kDegraded, sentence, Health::Output::kExcused);
   if (silent_us <= 3 * timeout_us_) return;
   source_.give_up(sentence);
   on_loss();
@@ -71,12 +71,13 @@ void LiveNode::on_loss() {
   log_warning("%s", source_.why().c_str());
   const std::int64_t now_us = monotonic_us();
   if (exits_on_loss_) {
-    process_.health().set_condition(HealthState::kDegraded, source_.why().c_str());
+    process_.health().set_condition(HealthState::kDegraded, source_.why().c_str(),
+                                    Health::Output::kExcused);
     process_.loop().arm_at(exit_timer_, now_us + Process::kHealthPeriod_us + kTick_us);
     return;
   }
   text_ = source_.why() + "; opening it again";
-  process_.health().set_condition(HealthState::kDegraded, text_.c_str());
+  process_.health().set_condition(HealthState::kDegraded, text_.c_str(), Health::Output::kExcused);
   shown_until_us_ = now_us + kLossShown_us;
   retry_us_ = now_us + back_off_.next_us();
 }

@@ -72,7 +72,7 @@ class CanProcess {
       return process_.health().clear_condition();
     }
     log_warning("%s", trouble);
-    process_.health().set_condition(HealthState::kDegraded, trouble);
+    process_.health().set_condition(HealthState::kDegraded, trouble, Health::Output::kExcused);
     if (sinks_.is_useless()) throw std::runtime_error("nowhere left to write CAN frames to");
   }
 

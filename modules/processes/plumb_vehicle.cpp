@@ -49,8 +49,8 @@ class VehicleProcess {
     if (trouble == nullptr) return process_.health().clear_condition();
     const bool waits = trouble == kNoClock;
     log_warning("%s", waits || reader_.is_up() ? trouble : reader_.state().c_str());
-    process_.health().set_condition(waits ? HealthState::kWaiting : HealthState::kDegraded,
-                                    trouble);
+    process_.health().set_condition(waits ? HealthState::kWaiting : HealthState::kDegraded, trouble,
+                                    Health::Output::kExcused);
   }
 
   [[nodiscard]] const char* trouble_at(std::int64_t now_us) const {

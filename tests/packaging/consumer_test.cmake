@@ -34,3 +34,14 @@ file(GLOB_RECURSE module ${OUT}/prefix/lib/python3/*/plumb/__init__.py)
 if(NOT module)
   message(SEND_ERROR "the messages for Python are not installed")
 endif()
+
+# The messages for Java, where this machine can make them.
+find_program(JAR jar)
+find_program(JAVAC javac)
+if(JAR AND JAVAC AND EXISTS /usr/share/java/lcm.jar)
+  execute_process(COMMAND ${JAR} tf ${OUT}/prefix/share/java/plumbline-types.jar OUTPUT_VARIABLE classes
+    COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT classes MATCHES "plumb/ego_motion_t.class")
+    message(SEND_ERROR "the messages for Java are not in their JAR: ${classes}")
+  endif()
+endif()

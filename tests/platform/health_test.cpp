@@ -56,6 +56,19 @@ TEST_F(HealthTest, IsDegradedForASecondAfterALossOrRejection) {
   EXPECT_EQ("3 messages lost", reason_) << "a loss is more serious than a rejection";
 }
 
+TEST_F(HealthTest, ExcusesTheOutputOfAProcessThatLacksWhatItNeeds) {
+  EXPECT_FALSE(health_.is_output_excused());
+  health_.set_condition(HealthState::kWaiting, "no calibration yet");
+  EXPECT_TRUE(health_.is_output_excused());
+  health_.set_condition(HealthState::kDegraded, "no interface", Health::Output::kExcused);
+  EXPECT_TRUE(health_.is_output_excused());
+  health_.set_condition(HealthState::kDegraded, "the camera was moved");
+  EXPECT_FALSE(health_.is_output_excused()) << "it goes on measuring";
+  health_.set_condition(HealthState::kDegraded, "no interface", Health::Output::kExcused);
+  health_.clear_condition();
+  EXPECT_FALSE(health_.is_output_excused());
+}
+
 TEST_F(HealthTest, TellsOfSkippedMessagesAndOfResultsWithoutAnInput) {
   counters_.num_late = 1;
   counters_.num_skipped = 12;
