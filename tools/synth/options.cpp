@@ -89,6 +89,23 @@ void declare_drive(CommandLine& app, Options& o) {
   app.add_option("--lead-gap", c.scene.lead_gap_m, "distance to that vehicle at rest, m")
       .check(within(1.0, 100.0))
       .capture_default_str();
+  app.add_option("--dense", c.scene.company.dense_gap_m,
+                 "mean gap between vehicles that drive along on every lane of ours, m; 0 = none")
+      .check(within(0.0, 200.0))
+      .capture_default_str();
+  app.add_option("--dense-trucks", c.scene.company.trucks, "share of trucks among them")
+      .check(within(0.0, 1.0))
+      .capture_default_str();
+  app.add_option("--wall", c.scene.company.wall, "lanes beside ours that are full of trucks")
+      .check(one_of({"none", "left", "right", "both"}))
+      .capture_default_str();
+  app.add_option("--wall-speed", c.scene.company.wall_speed_m_s,
+                 "speed of these trucks relative to ours, m/s")
+      .check(within(-20.0, 20.0))
+      .capture_default_str();
+  app.add_option("--people", c.scene.company.people, "people on the pavements")
+      .check(within(0, 500))
+      .capture_default_str();
   app.add_option("--lead-headway", c.scene.lead_headway_s, "time headway of that vehicle, s")
       .check(within(0.0, 5.0))
       .capture_default_str();
@@ -129,6 +146,25 @@ void declare_camera(CommandLine& app, Options& o) {
       .capture_default_str();
   app.add_option("--knock-yaw", o.knock_yaw_deg, "angle of that turn, degrees to the left")
       .check(within(-15.0, 15.0))
+      .capture_default_str();
+}
+
+void declare_attached(CommandLine& app, Options& o) {
+  AttachedConfig& c = o.config.attached;
+  app.add_option("--dashboard", c.dashboard, "share of the picture's height that it hides")
+      .check(within(0.0, 0.6))
+      .capture_default_str();
+  app.add_option("--bonnet", c.bonnet, "the same of the bonnet, above the dashboard")
+      .check(within(0.0, 0.4))
+      .capture_default_str();
+  app.add_option("--reflections", c.reflections,
+                 "dashboard reflected in the windscreen; 1 = as bright as a dark road")
+      .check(within(0.0, 5.0))
+      .capture_default_str();
+  app.add_flag("--stamp", o.config.stamp, "print a time stamp into the picture");
+  app.add_option("--compression", o.config.compression,
+                 "step of a video codec's quantiser, grey levels; 0 = none")
+      .check(within(0.0, 100.0))
       .capture_default_str();
 }
 
@@ -218,6 +254,7 @@ void declare(CommandLine& app, Options& o) {
   declare_drive(app, o);
   declare_camera(app, o);
   declare_sensor(app, o);
+  declare_attached(app, o);
   declare_weather(app, o);
 }
 
@@ -273,6 +310,7 @@ void complete(Options& o) {
   c.scene.seed = c.seed;
   c.ground.seed = c.seed;
   c.sensor.seed = c.seed;
+  c.attached.seed = c.seed;
   if (o.threads == 0)
     o.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }

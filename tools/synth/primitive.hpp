@@ -39,7 +39,8 @@ enum class Material : std::uint8_t {
   kTyre,
   kSign,
   kTarp,
-  kConcrete
+  kConcrete,
+  kCoach
 };
 
 struct Plane {

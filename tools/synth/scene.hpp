@@ -12,35 +12,17 @@
 #include "tools/synth/drive.hpp"
 #include "tools/synth/primitive.hpp"
 #include "tools/synth/terrain.hpp"
+#include "tools/synth/traffic.hpp"
+#include "tools/synth/vehicle.hpp"
 
 namespace plumb::synth {
-
-enum class VehicleKind : std::uint8_t { kCar, kVan, kTruck };
-
-/// A labelled object at one time.
-struct ObjectPose {
-  VehicleKind kind = VehicleKind::kCar;
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< length, width, height
-  Se3 T_map_object;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-};
-
-/// How a moving vehicle goes along the route.
-struct Mover {
-  VehicleKind kind = VehicleKind::kCar;
-  std::uint32_t seed = 0;
-  double lateral_m = 0.0;  ///< left of the driven lane's centre
-  bool leads = false;      ///< keeps ahead of us: goes where we are `headway_s` later, plus `s_m`
-  double headway_s = 0.0;
-  double s_m = 0.0;        ///< at time zero, or the gap when it leads
-  double speed_m_s = 0.0;  ///< along the route, negative when it comes towards us
-};
 
 struct SceneConfig {
   int traffic = 6;            ///< moving vehicles
   std::string lead = "none";  ///< vehicle ahead of us: none, car or truck
   double lead_gap_m = 6.0;
   double lead_headway_s = 0.9;
+  CompanyConfig company;
   std::uint64_t seed = 1;
 };
 
@@ -69,18 +51,14 @@ class Scene {
   std::vector<Mover> movers_;
 };
 
-/// Length, width, height of a vehicle of this kind and seed.
-[[nodiscard]] Eigen::Vector3d vehicle_size(VehicleKind kind, std::uint32_t seed);
-
-/// Appends the solids of one vehicle.
-void add_vehicle(const ObjectPose& pose, std::uint32_t seed, std::int32_t object,
-                 std::vector<Primitive>& solids);
-
 /// Upright pose on the ground's tangent plane.
 [[nodiscard]] Se3 stand_on(const Terrain& terrain, const Eigen::Vector2d& p_map, double yaw_rad);
 
 /// Houses, trees, hedges, fences, posts and parked vehicles along a route.
 void add_scenery(const Terrain& terrain, std::uint64_t seed, std::vector<Primitive>& still,
                  std::vector<ObjectPose>& parked);
+
+/// What is built beside and above the road of a freeway: barrier, walls, signs across the road.
+void add_roadside(const Terrain& terrain, std::uint64_t seed, std::vector<Primitive>& still);
 
 }  // namespace plumb::synth

@@ -10,6 +10,15 @@ namespace {
 
 constexpr double kLeadIn = 0.1;  ///< [s] before the first frame, so that its exposure has a past
 
+/// Says why a route has no lane for a wall of trucks.
+void refuse_missing_lanes(const Route& route, const CompanyConfig& company) {
+  const bool left = company.wall == "left" || company.wall == "both";
+  const bool right = company.wall == "right" || company.wall == "both";
+  if ((left && route.setting.lanes_left == 0) || (right && route.setting.lanes_right == 0))
+    throw UsageError("--wall " + company.wall + ": route '" + route.name +
+                     "' has no such lane; freeway and jam have both");
+}
+
 Route make_route(const SynthConfig& config) {
   const double duration_s = config.frames / config.rate_hz + kLeadIn + 0.5;
   Route route = config.poses.empty() ? make_builtin_route(config.route, duration_s, config.seed)
@@ -21,6 +30,7 @@ Route make_route(const SynthConfig& config) {
   for (int i = 0; i < config.bumps; ++i) {
     route.bumps.push_back({route.start_m + 15.0 + (i + 0.5) * travelled / config.bumps, 0.08, 1.8});
   }
+  refuse_missing_lanes(route, config.scene.company);
   return route;
 }
 
@@ -52,7 +62,9 @@ Studio::Studio(const SynthConfig& config)
       scene_(terrain_, drive_, config.scene),
       textures_(config.seed),
       lighting_(config.light, textures_),
-      ground_(terrain_, textures_, config.ground) {
+      ground_(terrain_, textures_, config.ground),
+      attached_(config.attached, textures_, config.render.camera.width_px,
+                config.render.camera.height_px) {
   still_shadows_.build(scene_.still(), lighting_.to_sun(), 2.0);
 }
 

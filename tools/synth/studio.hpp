@@ -21,6 +21,7 @@ class Studio {
   [[nodiscard]] const Drive& drive() const { return drive_; }
   [[nodiscard]] const Terrain& terrain() const { return terrain_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const Attached& attached() const { return attached_; }
   /// Frames that the route lasts, at most the configured number.
   [[nodiscard]] int num_frames() const;
 
@@ -34,6 +35,7 @@ class Studio {
   Lighting lighting_;
   GroundShader ground_;
   ShadowGrid still_shadows_;
+  Attached attached_;
 };
 
 }  // namespace plumb::synth
