@@ -40,7 +40,8 @@ enum class Material : std::uint8_t {
   kSign,
   kTarp,
   kConcrete,
-  kCoach
+  kCoach,
+  kLamp
 };
 
 struct Plane {

@@ -17,6 +17,9 @@ Scene::Scene(const Terrain& terrain, const Drive& drive, const SceneConfig& conf
     : terrain_(&terrain), drive_(&drive) {
   add_scenery(terrain, config.seed, still_, parked_);
   add_roadside(terrain, config.seed, still_);
+  if (!config.tube.empty()) add_tube(terrain, config.tube, config.seed, still_, lamps_);
+  if (config.street_lamps_m > 0.0)
+    add_street_lamps(terrain, config.street_lamps_m, config.seed, still_, lamps_);
   plan_traffic(config);
 }
 

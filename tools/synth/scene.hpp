@@ -10,6 +10,7 @@
 
 #include "core/se3.hpp"
 #include "tools/synth/drive.hpp"
+#include "tools/synth/lamps.hpp"
 #include "tools/synth/primitive.hpp"
 #include "tools/synth/terrain.hpp"
 #include "tools/synth/traffic.hpp"
@@ -23,6 +24,8 @@ struct SceneConfig {
   double lead_gap_m = 6.0;
   double lead_headway_s = 0.9;
   CompanyConfig company;
+  Tube tube;                    ///< from the start of the drive
+  double street_lamps_m = 0.0;  ///< distance between them; 0 = none
   std::uint64_t seed = 1;
 };
 
@@ -33,6 +36,7 @@ class Scene {
   /// Still solids; those of parked vehicles carry object numbers 0..num_parked-1.
   [[nodiscard]] const std::vector<Primitive>& still() const { return still_; }
   [[nodiscard]] const std::vector<ObjectPose>& parked() const { return parked_; }
+  [[nodiscard]] const std::vector<Lamp>& lamps() const { return lamps_; }
 
   /// Solids of moving vehicles at a time; their objects follow the parked ones.
   void moving(double time_s, std::vector<Primitive>& solids,
@@ -48,6 +52,7 @@ class Scene {
   const Drive* drive_;
   std::vector<Primitive> still_;
   std::vector<ObjectPose> parked_;
+  std::vector<Lamp> lamps_;
   std::vector<Mover> movers_;
 };
 
@@ -60,5 +65,13 @@ void add_scenery(const Terrain& terrain, std::uint64_t seed, std::vector<Primiti
 
 /// What is built beside and above the road of a freeway: barrier, walls, signs across the road.
 void add_roadside(const Terrain& terrain, std::uint64_t seed, std::vector<Primitive>& still);
+
+/// Walls, roof and lamps of a tunnel.
+void add_tube(const Terrain& terrain, const Tube& tube, std::uint64_t seed,
+              std::vector<Primitive>& still, std::vector<Lamp>& lamps);
+
+/// Street lamps on the right of the route, every `spacing_m`.
+void add_street_lamps(const Terrain& terrain, double spacing_m, std::uint64_t seed,
+                      std::vector<Primitive>& still, std::vector<Lamp>& lamps);
 
 }  // namespace plumb::synth

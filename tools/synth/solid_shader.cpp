@@ -67,6 +67,10 @@ Reflectance SolidShader::shade(const Primitive& solid, const Hit& hit, const Pat
     case Material::kCoach:
       coach(solid, hit, patch, out);
       break;
+    case Material::kLamp:
+      out.glow = 3.0F;
+      out.always_glows = true;
+      break;
     case Material::kTyre:
       tyre(solid, hit, out);
       break;
@@ -133,6 +137,7 @@ void SolidShader::facade(const Primitive& solid, const Hit& hit, const Face& fac
       dice_at(solid.seed, column, row, 12) < 0.3 ? 0.45 : 0.03;  // blind or dark room
   const double glass = pane(0.0);
   blend(out, glass, glass_tone);
+  if (dice_at(solid.seed, column, row, 13) < 0.3) out.glow = static_cast<float>(0.15 * glass);
   const double bar = coverage(u, 0.5 * bay - 0.03, 0.5 * bay + 0.03, face.reach_u) * glass;
   blend(out, bar, 0.6);
   blend(out,
@@ -239,6 +244,11 @@ void SolidShader::bodywork(const Primitive& solid, const Hit& hit, const Patch& 
   const double lamps = coverage(side, 0.68 * h.y(), 0.98 * h.y(), reach) *
                        coverage(p.z(), 0.15 * h.z(), 0.65 * h.z(), reach);
   blend(out, lamps, back ? 0.2 : 0.7);
+  const bool cab = h.z() > 0.9;  // of a truck, whose lamps are small and low
+  const double lit = cab ? coverage(side, 0.7 * h.y(), 0.9 * h.y(), reach) *
+                               coverage(p.z(), -0.75 * h.z(), -0.62 * h.z(), reach)
+                         : lamps;
+  out.glow = static_cast<float>(lit * (back ? 0.35 : 6.0));
   blend(out, coverage(p.z(), -h.z(), -0.45 * h.z(), reach), 0.04);  // bumper's lower part
   if (front)
     blend(
@@ -299,9 +309,11 @@ void SolidShader::coach(const Primitive& solid, const Hit& hit, const Patch& pat
     const double lamps = coverage(std::abs(p.y()), 0.7 * h.y(), 0.92 * h.y(), reach) *
                          coverage(p.z(), -0.62 * h.z(), -0.45 * h.z(), reach);
     blend(out, lamps, hit.n_local.x() < 0.0 ? 0.2 : 0.7);
+    out.glow = static_cast<float>(lamps * (hit.n_local.x() < 0.0 ? 0.35 : 6.0));
   }
   blend(out, coverage(p.z(), -h.z(), -0.8 * h.z(), reach), 0.04);
   blend(out, glass, 0.03);
+  out.glow += static_cast<float>(0.12 * glass);  // lit inside
   out.gloss = static_cast<float>(0.25 + 0.6 * glass);
 }
 

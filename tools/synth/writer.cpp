@@ -182,7 +182,8 @@ class Worker {
     const double since_start = t - studio_.time_s(0);
     renderer_.render(t, rendered_);
     studio_.attached().lay_over(rendered_);
-    const double light = config.tunnel.factor(since_start) * config.covered.factor(since_start);
+    const double light = config.tunnel.factor(since_start) * config.covered.factor(since_start) *
+                         studio_.tube_exposure(since_start);
     sensor_.develop(rendered_, since_start, static_cast<std::uint64_t>(frame), light, bytes_);
     const fs::path path = config.out / kImageFolder / format("%06d.png", frame);
     cv::Mat image(rendered_.height_px, rendered_.width_px, CV_8UC1, bytes_.data());
