@@ -135,10 +135,10 @@ void Attached::lay_over(RenderedFrame& frame) const {
       const Shares& share = shares_[k];
       if (share.bonnet > 0.0F && share.dashboard < 1.0F) {
         const float sheet = 0.03F * light + 0.22F * mirrored(frame, u, v);
-        radiance += share.bonnet * (sheet - radiance);
+        radiance = (1.0F - share.bonnet) * radiance + share.bonnet * sheet;
       }
       radiance += light * veil_[k] * (1.0F - share.dashboard);
-      radiance += share.dashboard * (light * tone_[k] - radiance);
+      radiance = (1.0F - share.dashboard) * radiance + share.dashboard * light * tone_[k];
       if (std::max(share.bonnet, share.dashboard) < 0.5F) continue;
       frame.distance_m[k] = 0.0F;
       frame.object[k] = FrameRenderer::kNothing;
