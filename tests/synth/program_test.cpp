@@ -57,6 +57,20 @@ TEST_F(SynthProgram, FilesDoNotDependOnTheNumberOfThreads) {
   EXPECT_NE(read_text(seeded / "image_0/000000.png"), read_text(one / "image_0/000000.png"));
 }
 
+TEST_F(SynthProgram, ACodedDriveDoesNotDependOnTheNumberOfThreads) {
+  const std::string options =
+      kSmall + "--route freeway --rate 20 --dense 15 --dashboard 0.2 --reflections 1 --stamp ";
+  const auto image = [&](const std::string& name, const std::string& more) {
+    EXPECT_EQ(run("--out " + fresh(name).string() + options + more).code, 0);
+    return read_text(fresh(name) / "image_0/000004.png");
+  };
+  const std::string coded = image("one", "--compression 6 --threads 1");
+  EXPECT_EQ(coded, image("three", "--compression 6 --threads 3"));
+  const std::string plain = image("plain", "--threads 1");
+  EXPECT_NE(coded, plain);
+  EXPECT_LT(coded.size(), plain.size()) << "less detail is left";
+}
+
 TEST_F(SynthProgram, LayoutIsKittisAndTruthHasARowPerFrame) {
   const fs::path out = fresh("layout");
   ASSERT_EQ(run("--out " + out.string() + kSmall +
@@ -95,7 +109,8 @@ TEST_F(SynthProgram, RefusesWhatItCannotDoInOneSentence) {
   const fs::path out = fresh("refused");
   for (const std::string wrong :
        {"--route nowhere", "--frames 0", "--size 12", "--rate abc", "--unknown 1", "--tunnel 5:2",
-        "--poses /nonexistent.txt", "--start 4", "--lead bus"}) {
+        "--poses /nonexistent.txt", "--start 4", "--lead bus", "--wall left", "--wall up",
+        "--tube 90:30", "--dense -1"}) {
     const Ran ran = run("--out " + out.string() + " " + wrong);
     EXPECT_EQ(ran.code, 2) << wrong << ": " << ran.text;
     EXPECT_EQ(std::count(ran.text.begin(), ran.text.end(), '\n'), 1) << ran.text;
@@ -119,8 +134,8 @@ TEST_F(SynthProgram, KeepsAFolderThatIsNotEmptyUnlessForced) {
 TEST_F(SynthProgram, ListsItsRoutesAndMeasuresADrive) {
   const Ran routes = run("--list-routes");
   EXPECT_EQ(routes.code, 0);
-  for (const char* name :
-       {"city", "straight", "motorway", "loop", "stop-and-go", "stop", "standing"})
+  for (const char* name : {"city", "straight", "motorway", "loop", "stop-and-go", "stop",
+                           "standing", "freeway", "jam", "roundabout", "inner-city"})
     EXPECT_NE(routes.text.find(name), std::string::npos) << name;
   EXPECT_EQ(run("--version").code, 0);
   EXPECT_EQ(run("--help").code, 0);

@@ -90,6 +90,7 @@ double GroundShader::asphalt(const Patch& patch, const Footprint& f, const Here&
   double albedo = kAsphalt * (1.0 + k * (0.28 * grain + 0.07 * fine + 0.07 * coarse + tracks));
   albedo *= 1.0 + std::min(1.0, 2.0 * k) * (repairs(here) + manholes(here));
   albedo *= 1.0 - std::min(1.0, k) * cracks(patch, here);
+  albedo *= 1.0 - joints_and_rails(here);
   // Dirt gathers in the gutter.
   if (here.edge_m > -0.6) albedo *= 1.0 - 0.25 * (1.0 + here.edge_m / 0.6) * (1.0 + 0.4 * fine);
   return std::max(0.02, albedo);
@@ -160,6 +161,25 @@ double GroundShader::cracks(const Patch& patch, const Here& here) const {
   return 0.65 * line * std::clamp((where - 0.45) / 0.3, 0.0, 1.0);
 }
 
+double GroundShader::joints_and_rails(const Here& here) const {
+  const Setting& setting = terrain_.route().setting;
+  if (!here.road.valid) return 0.0;
+  double dark = 0.0;
+  if (setting.slab_m > 0.0) {
+    dark += 0.35 * joints(here.road.s_m, setting.slab_m, 0.02, here.along_m);
+    dark +=
+        0.25 * joints(here.road.d_m + 0.5 * setting.lane_m, setting.lane_m, 0.02, here.across_m);
+  }
+  if (setting.tram_m > 0.0) {
+    for (const double side : {-0.72, 0.72}) {  // a groove beside a polished rail
+      const double at = setting.tram_m + side;
+      dark += 0.6 * coverage(here.road.d_m, at - 0.04, at, here.across_m) -
+              0.5 * coverage(here.road.d_m, at, at + 0.06, here.across_m);
+    }
+  }
+  return dark;
+}
+
 double GroundShader::manholes(const Here& here) const {
   if (!here.road.valid) return 0.0;
   const auto& [s0, d0] = manholes_[index_of(here.road.s_m, kManholeCell, manholes_.size())];
@@ -188,15 +208,17 @@ double GroundShader::markings(const Here& here) const {
   double paint = 0.0;
   const bool dashed = dashed_[index_of(s, kDashBlock, dashed_.size())];
   if (dashed && setting.dash_offset_m > 0.0) {
-    const bool motorway = setting.guard_rail;
-    const double dash =
-        motorway ? stripe(s, 18.0, 0.0, 6.0, here.along_m) : stripe(s, 9.0, 0.0, 3.0, here.along_m);
+    const double dash = stripe(s, setting.dash_period_m, 0.0, setting.dash_m, here.along_m);
     paint += line(setting.dash_offset_m, 0.13) * dash;
-    if (motorway) paint += line(setting.dash_offset_m + 3.7, 0.13) * dash;
+    for (int lane = 1; lane < setting.lanes_left; ++lane)
+      paint += line(setting.dash_offset_m + lane * setting.lane_m, 0.13) * dash;
+    for (int lane = 0; lane < setting.lanes_right; ++lane)
+      paint += line(-setting.dash_offset_m - lane * setting.lane_m, 0.13) * dash;
   }
   if (setting.edge_lines) {
-    paint += line(setting.guard_rail ? -2.1 : -setting.right_m + 0.35, 0.15);
-    paint += line(setting.left_m - (setting.guard_rail ? 0.6 : 0.35), 0.15);
+    paint +=
+        line(setting.right_line_m > 0.0 ? -setting.right_line_m : -setting.right_m + 0.35, 0.15);
+    paint += line(setting.left_m - setting.left_line_m, 0.15);
   }
   return std::min(1.0, paint);
 }

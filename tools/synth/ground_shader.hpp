@@ -34,6 +34,8 @@ class GroundShader {
   [[nodiscard]] double asphalt(const Patch& patch, const Footprint& f, const Here& here) const;
   [[nodiscard]] double repairs(const Here& here) const;
   [[nodiscard]] double cracks(const Patch& patch, const Here& here) const;
+  /// Darkening by the joints of concrete slabs and by tram rails; negative where rails shine.
+  [[nodiscard]] double joints_and_rails(const Here& here) const;
   [[nodiscard]] double manholes(const Here& here) const;
   [[nodiscard]] double markings(const Here& here) const;
   [[nodiscard]] float beside(const Patch& patch, const Footprint& f, const Here& here) const;

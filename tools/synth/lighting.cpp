@@ -40,7 +40,7 @@ float Lighting::sky(const Eigen::Vector3d& direction, double pixel_rad) const {
   const double glare = direction.dot(to_sun_);
   if (config_.sun > 0.0 && glare > 0.7)
     tone += 0.5 * std::pow(glare, 12.0) + (glare > 0.99 ? 60.0 * std::pow(glare, 4000.0) : 0.0);
-  const double lit = std::max(0.15, config_.sky / 0.55);
+  const double lit = std::max(config_.night ? 0.0 : 0.15, config_.sky / 0.55);
   return static_cast<float>(lit * (tone + woods * (wood_tone - tone)));
 }
 
@@ -72,7 +72,8 @@ float Lighting::answer(const Reflectance& surface, const Eigen::Vector3d& view,
 float Lighting::through_air(float radiance, double distance_m) const {
   const auto clear = static_cast<float>(std::exp(-distance_m / config_.haze_m));
   return radiance * clear +
-         (1.0F - clear) * static_cast<float>(0.75 * std::max(0.2, config_.sky / 0.55));
+         (1.0F - clear) *
+             static_cast<float>(0.75 * std::max(config_.night ? 0.0 : 0.2, config_.sky / 0.55));
 }
 
 }  // namespace plumb::synth

@@ -19,6 +19,7 @@ struct LightConfig {
   double sky = 0.55;      ///< strength of the sky's light
   double sky_tone = 0.8;  ///< brightness of what is seen of the sky
   double clouds = 0.4;    ///< 0 clear .. 1 covered
+  bool night = false;     ///< the sky has no light but `sky`
   double haze_m = 900.0;  ///< distance over which contrast falls to 1/e
 };
 

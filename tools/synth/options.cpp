@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 #include "core/numbers.hpp"
 #include "platform/command_line.hpp"
@@ -27,14 +29,21 @@ void parse_size(const std::string& text, CameraModel& camera) {
   camera.height_px = height;
 }
 
-DarkSpan parse_span(const char* option, const std::string& text, double light, double fade_s) {
-  if (text.empty()) return {};
+/// The two numbers of FROM:TO; equal when the text is empty.
+std::pair<double, double> parse_span(const char* option, const std::string& text,
+                                     const char* unit) {
   double from = 0.0;
   double to = 0.0;
+  if (text.empty()) return {from, to};
   char rest = 0;
   if (std::sscanf(text.c_str(), "%lf:%lf%c", &from, &to, &rest) != 2 || from < 0.0 || to <= from) {
-    throw UsageError(std::string(option) + " " + text + " is not FROM:TO in seconds");
+    throw UsageError(std::string(option) + " " + text + " is not FROM:TO in " + unit);
   }
+  return {from, to};
+}
+
+DarkSpan parse_dark_span(const char* option, const std::string& text, double light, double fade_s) {
+  const auto [from, to] = parse_span(option, text, "seconds");
   return {from, to, light, fade_s};
 }
 
@@ -94,6 +103,27 @@ void declare_drive(CommandLine& app, Options& o) {
       .capture_default_str();
 }
 
+void declare_company(CommandLine& app, Options& o) {
+  SynthConfig& c = o.config;
+  app.add_option("--dense", c.scene.company.dense_gap_m,
+                 "mean gap between vehicles that drive along on every lane of ours, m; 0 = none")
+      .check(within(0.0, 200.0))
+      .capture_default_str();
+  app.add_option("--dense-trucks", c.scene.company.trucks, "share of trucks among them")
+      .check(within(0.0, 1.0))
+      .capture_default_str();
+  app.add_option("--wall", c.scene.company.wall, "lanes beside ours that are full of trucks")
+      .check(one_of({"none", "left", "right", "both"}))
+      .capture_default_str();
+  app.add_option("--wall-speed", c.scene.company.wall_speed_m_s,
+                 "speed of these trucks relative to ours, m/s")
+      .check(within(-20.0, 20.0))
+      .capture_default_str();
+  app.add_option("--people", c.scene.company.people, "people on the pavements")
+      .check(within(0, 500))
+      .capture_default_str();
+}
+
 void declare_camera(CommandLine& app, Options& o) {
   SynthConfig& c = o.config;
   app.add_option("--size", o.size, "image size").capture_default_str();
@@ -132,6 +162,25 @@ void declare_camera(CommandLine& app, Options& o) {
       .capture_default_str();
 }
 
+void declare_attached(CommandLine& app, Options& o) {
+  AttachedConfig& c = o.config.attached;
+  app.add_option("--dashboard", c.dashboard, "share of the picture's height that it hides")
+      .check(within(0.0, 0.6))
+      .capture_default_str();
+  app.add_option("--bonnet", c.bonnet, "the same of the bonnet, above the dashboard")
+      .check(within(0.0, 0.4))
+      .capture_default_str();
+  app.add_option("--reflections", c.reflections,
+                 "dashboard reflected in the windscreen; 1 = as bright as a dark road")
+      .check(within(0.0, 5.0))
+      .capture_default_str();
+  app.add_flag("--stamp", o.config.stamp, "print a time stamp into the picture");
+  app.add_option("--compression", o.config.compression,
+                 "step of a video codec's quantiser, grey levels; 0 = none")
+      .check(within(0.0, 100.0))
+      .capture_default_str();
+}
+
 void declare_sensor(CommandLine& app, Options& o) {
   SynthConfig& c = o.config;
   app.add_option("--residual-k1", c.render.camera.residual_k1,
@@ -152,6 +201,10 @@ void declare_sensor(CommandLine& app, Options& o) {
       .capture_default_str();
   app.add_option("--gain", c.sensor.gain, "grey levels per unit of light")
       .check(within(1.0, 5000.0))
+      .capture_default_str();
+  app.add_option("--gamma", c.sensor.gamma,
+                 "exponent of the tone curve; below 1 lifts what is dark")
+      .check(within(0.2, 3.0))
       .capture_default_str();
   app.add_option("--noise", c.sensor.read_noise, "read noise, grey levels")
       .check(within(0.0, 50.0))
@@ -201,7 +254,29 @@ void declare_weather(CommandLine& app, Options& o) {
       .check(within(10.0, 1e6))
       .capture_default_str();
   app.add_option("--tunnel", o.tunnel, "FROM:TO in s: a tunnel with a tenth of the light");
+  app.add_option("--tube", o.tube,
+                 "FROM:TO in m of the drive: a tunnel with walls, a roof and lamps");
+  app.add_flag("--night", o.night, "no sun and hardly any sky: headlights and lamps");
+  app.add_option("--street-lamps", c.scene.street_lamps_m,
+                 "distance between street lamps, m; 0 = none")
+      .check(within(0.0, 500.0))
+      .capture_default_str();
   app.add_option("--covered", o.covered, "FROM:TO in s: the lens is covered");
+}
+
+/// Takes the sun away, and at night the sky as well.
+void darken(Options& o) {
+  LightConfig& light = o.config.light;
+  if (o.overcast) {
+    light.sun = 0.0;
+    light.sky = 1.3;
+    light.clouds = 1.0;
+  }
+  if (o.night) {
+    light.night = true;
+    light.sun = 0.0;
+    light.sky = 0.004;
+  }
 }
 
 }  // namespace
@@ -216,8 +291,10 @@ void declare(CommandLine& app, Options& o) {
                "write into a folder that is not empty, and replace a drive there");
   app.add_flag("--quiet", o.quiet, "print nothing");
   declare_drive(app, o);
+  declare_company(app, o);
   declare_camera(app, o);
   declare_sensor(app, o);
+  declare_attached(app, o);
   declare_weather(app, o);
 }
 
@@ -235,11 +312,11 @@ void complete(Options& o) {
     throw UsageError("--end must be greater than --start");
   if (c.poses.empty() && (c.first_row != 0 || c.last_row != -1))
     throw UsageError("--start and --end go with --poses");
-  c.tunnel = parse_span("--tunnel", o.tunnel, 0.1, 0.4);
-  c.covered = parse_span("--covered", o.covered, 0.0, 0.05);
-  const DarkSpan turning = parse_span("--turntable-span", o.turntable_span, 1.0, 0.0);
-  c.drive.turn_from_s = turning.from_s;
-  c.drive.turn_to_s = turning.to_s;
+  c.tunnel = parse_dark_span("--tunnel", o.tunnel, 0.1, 0.4);
+  c.covered = parse_dark_span("--covered", o.covered, 0.0, 0.05);
+  std::tie(c.scene.tube.from_m, c.scene.tube.to_m) = parse_span("--tube", o.tube, "metres");
+  std::tie(c.drive.turn_from_s, c.drive.turn_to_s) =
+      parse_span("--turntable-span", o.turntable_span, "seconds");
   if (c.drive.knock.at_s <= 0.0 &&
       (o.knock_pitch_deg != 0.0 || o.knock_roll_deg != 0.0 || o.knock_yaw_deg != 0.0)) {
     throw UsageError("--knock-pitch, --knock-roll and --knock-yaw go with --knock-at");
@@ -264,15 +341,12 @@ void complete(Options& o) {
   c.light.sun_elevation_rad = kDegree * o.sun_deg;
   c.light.sky_tone = random.uniform(0.4, 1.0);
   c.light.clouds = random.uniform(0.0, 0.7);
-  if (o.overcast) {
-    c.light.sun = 0.0;
-    c.light.sky = 1.3;
-    c.light.clouds = 1.0;
-  }
+  darken(o);
   c.drive.seed = c.seed;
   c.scene.seed = c.seed;
   c.ground.seed = c.seed;
   c.sensor.seed = c.seed;
+  c.attached.seed = c.seed;
   if (o.threads == 0)
     o.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }

@@ -15,6 +15,7 @@ struct Options {
   bool quiet = false;
   std::string size = "1242x375";
   std::string tunnel;
+  std::string tube;
   std::string covered;
   std::string turntable_span;
   double sun_deg = 35.0;
@@ -27,6 +28,7 @@ struct Options {
   double knock_yaw_deg = 0.0;
   double focal_px = 0.0;
   bool overcast = false;
+  bool night = false;
 };
 
 /// Declares every option of rendering on `app`.

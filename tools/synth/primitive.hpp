@@ -39,7 +39,9 @@ enum class Material : std::uint8_t {
   kTyre,
   kSign,
   kTarp,
-  kConcrete
+  kConcrete,
+  kCoach,
+  kLamp
 };
 
 struct Plane {

@@ -45,6 +45,7 @@ const Se3& FrameRenderer::pose_at(int v, int slot) const {
 
 void FrameRenderer::prepare(double time_s) {
   time_s_ = time_s;
+  T_map_veh_ = world_.drive.T_map_veh(time_s);
   const int rows = config_.readout_s > 0.0 ? config_.camera.height_px : 1;
   poses_.clear();
   slot_time_s_.clear();
@@ -181,6 +182,14 @@ float FrameRenderer::sunlight(const Patch& patch, const Reflectance& surface) co
   return moving_shadows_.hidden(lifted, kSunBlur, world_.textures.volume) ? 0.0F : 1.0F;
 }
 
+float FrameRenderer::light_from(Reflectance surface, const Patch& patch, double distance_m) const {
+  const bool lit = world_.lamps.lit();
+  if (lit) surface.openness *= world_.lamps.sky_share(patch.p_map);
+  float radiance = world_.lighting.answer(surface, patch.view, sunlight(patch, surface));
+  if (lit) radiance += world_.lamps.answer(surface, patch, T_map_veh_);
+  return config_.plain ? radiance : world_.lighting.through_air(radiance, distance_m);
+}
+
 FrameRenderer::Sample FrameRenderer::shade_solid(const Ray& ray, const Hit& hit) const {
   const Primitive& solid = solids_[static_cast<std::size_t>(hit.primitive)];
   const Patch patch{ray.origin + hit.t * ray.direction, solid.R_map_local * hit.n_local,
@@ -190,8 +199,7 @@ FrameRenderer::Sample FrameRenderer::shade_solid(const Ray& ray, const Hit& hit)
   Reflectance surface = shader.shade(solid, hit, patch);
   if (surface.n_map.dot(ray.direction) > 0.0) surface.n_map = patch.n_map;
   Sample out;
-  out.radiance = world_.lighting.answer(surface, ray.direction, sunlight(patch, surface));
-  if (!config_.plain) out.radiance = world_.lighting.through_air(out.radiance, hit.t);
+  out.radiance = light_from(surface, patch, hit.t);
   out.distance_m = static_cast<float>(hit.t);
   out.key =
       16U + 8U * static_cast<std::uint32_t>(hit.primitive) + static_cast<std::uint32_t>(hit.face);
@@ -218,8 +226,7 @@ FrameRenderer::Sample FrameRenderer::shade_ground(const Ray& ray, const GroundHi
   if (!config_.plain &&
       above_.hidden(patch.p_map + Vector3d(0.0, 0.0, 0.02), 0.01, world_.textures.volume))
     surface.openness = 0.15F;
-  out.radiance = world_.lighting.answer(surface, ray.direction, sunlight(patch, surface));
-  if (!config_.plain) out.radiance = world_.lighting.through_air(out.radiance, hit.t);
+  out.radiance = light_from(surface, patch, hit.t);
   out.distance_m = static_cast<float>(hit.t);
   out.key = 1U + static_cast<std::uint32_t>(hit.part);
   out.object = hit.part == GroundPart::kRoad ? kRoad : kNothing;

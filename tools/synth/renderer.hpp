@@ -18,6 +18,7 @@
 #include "tools/synth/drive.hpp"
 #include "tools/synth/ground_ray.hpp"
 #include "tools/synth/ground_shader.hpp"
+#include "tools/synth/lamps.hpp"
 #include "tools/synth/lighting.hpp"
 #include "tools/synth/scene.hpp"
 #include "tools/synth/shadow_grid.hpp"
@@ -42,6 +43,7 @@ struct World {
   const Lighting& lighting;
   const GroundShader& ground;
   const ShadowGrid& still_shadows;
+  const Lamps& lamps;
 };
 
 struct RenderedFrame {
@@ -90,6 +92,7 @@ class FrameRenderer {
                              const std::vector<Candidate>& tile) const;
   [[nodiscard]] Sample shade_solid(const Ray& ray, const Hit& hit) const;
   [[nodiscard]] Sample shade_ground(const Ray& ray, const GroundHit& hit) const;
+  [[nodiscard]] float light_from(Reflectance surface, const Patch& patch, double distance_m) const;
   [[nodiscard]] float sunlight(const Patch& patch, const Reflectance& surface) const;
   void first_pass(RenderedFrame& out);
   void refine(RenderedFrame& out);
@@ -102,6 +105,7 @@ class FrameRenderer {
   int tiles_x_;
   int tiles_y_;
   double time_s_ = 0.0;
+  Se3 T_map_veh_;
   Eigen::Vector3d smear_ = Eigen::Vector3d::Zero();  ///< [m] motion of the eye during the exposure
   std::vector<Primitive> solids_;
   std::vector<Primitive> moving_;

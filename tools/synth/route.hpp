@@ -26,11 +26,22 @@ struct Setting {
   double tree_ratio = 0.5;      ///< share of tree places taken
   double parked_ratio = 0.35;   ///< share of parking places taken
   double dash_offset_m = 1.75;  ///< lane line to the left of the lane's centre; 0 = none
+  double dash_period_m = 9.0;   ///< from the beginning of a dash to that of the next
+  double dash_m = 3.0;          ///< length of a dash
+  double lane_m = 3.7;          ///< width of the lanes beside ours
+  int lanes_left = 0;           ///< lanes of our direction to the left of ours
+  int lanes_right = 0;          ///< and to the right
   double side_road_m = 90.0;    ///< mean distance between side roads; 0 = none
   double hill_m = 1.5;          ///< amplitude of the terrain
   double roughness = 1.0;       ///< 1 = ISO 8608 class B
+  double oncoming_m = 3.4;      ///< lane of oncoming traffic, to the left of ours
+  double left_line_m = 0.35;    ///< from the road's left edge to its edge line
+  double right_line_m = 0.0;    ///< our lane's centre to the right edge line; 0 = 0.35 m inside
+  double slab_m = 0.0;          ///< concrete slabs: distance between joints; 0 = asphalt
+  double tram_m = 0.0;          ///< middle of a tram's track to the left of the lane; 0 = none
   bool edge_lines = false;
   bool guard_rail = false;
+  bool barrier = false;  ///< a concrete wall to the left and overhead signs, as on a freeway
 };
 
 struct RoutePoint {

@@ -10,37 +10,22 @@
 
 #include "core/se3.hpp"
 #include "tools/synth/drive.hpp"
+#include "tools/synth/lamps.hpp"
 #include "tools/synth/primitive.hpp"
 #include "tools/synth/terrain.hpp"
+#include "tools/synth/traffic.hpp"
+#include "tools/synth/vehicle.hpp"
 
 namespace plumb::synth {
-
-enum class VehicleKind : std::uint8_t { kCar, kVan, kTruck };
-
-/// A labelled object at one time.
-struct ObjectPose {
-  VehicleKind kind = VehicleKind::kCar;
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< length, width, height
-  Se3 T_map_object;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-};
-
-/// How a moving vehicle goes along the route.
-struct Mover {
-  VehicleKind kind = VehicleKind::kCar;
-  std::uint32_t seed = 0;
-  double lateral_m = 0.0;  ///< left of the driven lane's centre
-  bool leads = false;      ///< keeps ahead of us: goes where we are `headway_s` later, plus `s_m`
-  double headway_s = 0.0;
-  double s_m = 0.0;        ///< at time zero, or the gap when it leads
-  double speed_m_s = 0.0;  ///< along the route, negative when it comes towards us
-};
 
 struct SceneConfig {
   int traffic = 6;            ///< moving vehicles
   std::string lead = "none";  ///< vehicle ahead of us: none, car or truck
   double lead_gap_m = 6.0;
   double lead_headway_s = 0.9;
+  CompanyConfig company;
+  Tube tube;                    ///< from the start of the drive
+  double street_lamps_m = 0.0;  ///< distance between them; 0 = none
   std::uint64_t seed = 1;
 };
 
@@ -51,6 +36,7 @@ class Scene {
   /// Still solids; those of parked vehicles carry object numbers 0..num_parked-1.
   [[nodiscard]] const std::vector<Primitive>& still() const { return still_; }
   [[nodiscard]] const std::vector<ObjectPose>& parked() const { return parked_; }
+  [[nodiscard]] const std::vector<Lamp>& lamps() const { return lamps_; }
 
   /// Solids of moving vehicles at a time; their objects follow the parked ones.
   void moving(double time_s, std::vector<Primitive>& solids,
@@ -66,15 +52,9 @@ class Scene {
   const Drive* drive_;
   std::vector<Primitive> still_;
   std::vector<ObjectPose> parked_;
+  std::vector<Lamp> lamps_;
   std::vector<Mover> movers_;
 };
-
-/// Length, width, height of a vehicle of this kind and seed.
-[[nodiscard]] Eigen::Vector3d vehicle_size(VehicleKind kind, std::uint32_t seed);
-
-/// Appends the solids of one vehicle.
-void add_vehicle(const ObjectPose& pose, std::uint32_t seed, std::int32_t object,
-                 std::vector<Primitive>& solids);
 
 /// Upright pose on the ground's tangent plane.
 [[nodiscard]] Se3 stand_on(const Terrain& terrain, const Eigen::Vector2d& p_map, double yaw_rad);
@@ -82,5 +62,16 @@ void add_vehicle(const ObjectPose& pose, std::uint32_t seed, std::int32_t object
 /// Houses, trees, hedges, fences, posts and parked vehicles along a route.
 void add_scenery(const Terrain& terrain, std::uint64_t seed, std::vector<Primitive>& still,
                  std::vector<ObjectPose>& parked);
+
+/// What is built beside and above the road of a freeway: barrier, walls, signs across the road.
+void add_roadside(const Terrain& terrain, std::uint64_t seed, std::vector<Primitive>& still);
+
+/// Walls, roof and lamps of a tunnel.
+void add_tube(const Terrain& terrain, const Tube& tube, std::uint64_t seed,
+              std::vector<Primitive>& still, std::vector<Lamp>& lamps);
+
+/// Street lamps on the right of the route, every `spacing_m`.
+void add_street_lamps(const Terrain& terrain, double spacing_m, std::uint64_t seed,
+                      std::vector<Primitive>& still, std::vector<Lamp>& lamps);
 
 }  // namespace plumb::synth

@@ -85,6 +85,8 @@ void Sensor::develop(const RenderedFrame& in, double time_s, std::uint64_t frame
   const auto gain = static_cast<float>(config_.gain * exposure(time_s) * light);
   const auto shot = static_cast<float>(config_.shot_noise);
   const auto read2 = static_cast<float>(config_.read_noise * config_.read_noise);
+  const auto gamma = static_cast<float>(config_.gamma);
+  const bool curved = config_.gamma != 1.0;
   const double reach =
       1.0 / (0.25 * (static_cast<double>(width) * width + static_cast<double>(height) * height));
   out.resize(image_.size());
@@ -95,7 +97,8 @@ void Sensor::develop(const RenderedFrame& in, double time_s, std::uint64_t frame
       const double du = u - 0.5 * width;
       const double dv = v - 0.5 * height;
       const auto fall = static_cast<float>(1.0 - config_.vignetting * (du * du + dv * dv) * reach);
-      const float clean = gain * fall * image_[k];
+      float clean = gain * fall * image_[k];
+      if (curved) clean = 255.0F * std::pow(clean / 255.0F, gamma);
       const float noisy = clean + std::sqrt(read2 + shot * clean) * cheap_normal(mix(stream + k));
       out[k] = static_cast<std::uint8_t>(std::clamp(noisy + 0.5F, 0.0F, 255.0F));
     }

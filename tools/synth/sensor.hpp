@@ -11,6 +11,7 @@ namespace plumb::synth {
 struct SensorConfig {
   double blur_px = 0.5;       ///< sigma of the lens' point spread
   double gain = 330.0;        ///< grey levels per unit of radiance
+  double gamma = 1.0;         ///< exponent of the tone curve, which keeps 255 at 255
   double read_noise = 0.8;    ///< grey levels
   double shot_noise = 0.008;  ///< variance per grey level
   double vignetting = 0.12;   ///< loss of light in the corners

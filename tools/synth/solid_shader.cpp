@@ -64,6 +64,13 @@ Reflectance SolidShader::shade(const Primitive& solid, const Hit& hit, const Pat
     case Material::kCabin:
       cabin(solid, hit, patch, out);
       break;
+    case Material::kCoach:
+      coach(solid, hit, patch, out);
+      break;
+    case Material::kLamp:
+      out.glow = 3.0F;
+      out.always_glows = true;
+      break;
     case Material::kTyre:
       tyre(solid, hit, out);
       break;
@@ -130,6 +137,7 @@ void SolidShader::facade(const Primitive& solid, const Hit& hit, const Face& fac
       dice_at(solid.seed, column, row, 12) < 0.3 ? 0.45 : 0.03;  // blind or dark room
   const double glass = pane(0.0);
   blend(out, glass, glass_tone);
+  if (dice_at(solid.seed, column, row, 13) < 0.3) out.glow = static_cast<float>(0.15 * glass);
   const double bar = coverage(u, 0.5 * bay - 0.03, 0.5 * bay + 0.03, face.reach_u) * glass;
   blend(out, bar, 0.6);
   blend(out,
@@ -236,6 +244,11 @@ void SolidShader::bodywork(const Primitive& solid, const Hit& hit, const Patch& 
   const double lamps = coverage(side, 0.68 * h.y(), 0.98 * h.y(), reach) *
                        coverage(p.z(), 0.15 * h.z(), 0.65 * h.z(), reach);
   blend(out, lamps, back ? 0.2 : 0.7);
+  const bool cab = h.z() > 0.9;  // of a truck, whose lamps are small and low
+  const double lit = cab ? coverage(side, 0.7 * h.y(), 0.9 * h.y(), reach) *
+                               coverage(p.z(), -0.75 * h.z(), -0.62 * h.z(), reach)
+                         : lamps;
+  out.glow = static_cast<float>(lit * (back ? 0.35 : 6.0));
   blend(out, coverage(p.z(), -h.z(), -0.45 * h.z(), reach), 0.04);  // bumper's lower part
   if (front)
     blend(
@@ -269,6 +282,39 @@ void SolidShader::cabin(const Primitive& solid, const Hit& hit, const Patch& pat
   const double glass = up * across;
   blend(out, glass, 0.02);
   out.gloss = static_cast<float>(0.35 + 0.65 * glass);
+}
+
+void SolidShader::coach(const Primitive& solid, const Hit& hit, const Patch& patch,
+                        Reflectance& out) const {
+  const Vector3d& p = hit.p_local;
+  const Vector3d& h = solid.half;
+  const double reach = patch.width_m * 1.5;
+  out.gloss = solid.gloss;
+  if (std::abs(hit.n_local.z()) > 0.9) return;
+  const bool side = std::abs(hit.n_local.y()) > 0.5;
+  const double tall = coverage(p.z(), 0.05 * h.z(), 0.72 * h.z(), reach);
+  double glass = 0.0;
+  if (side) {
+    glass = tall * coverage(p.x(), -h.x() + 0.4, h.x() - 0.3, reach) *
+            (1.0 - stripe(p.x() + 40.0, 1.45, 0.0, 0.09, reach));
+    // An advertisement below the windows, and doors.
+    const double letters = static_cast<double>(
+        textures_.volume.sample(1.7 * p.x() + (solid.seed % 61U), 1.7 * p.z(), 3.5));
+    const double band = coverage(p.z(), -0.55 * h.z(), -0.1 * h.z(), reach);
+    if (letters > 0.52) blend(out, 0.7 * band, dice(solid.seed, 4) < 0.5 ? 0.6 : 0.06);
+    blend(out, stripe(p.x() + 41.0, 5.8, 0.0, 0.04, reach), 0.03);
+  } else {
+    glass = coverage(p.z(), -0.1 * h.z(), 0.78 * h.z(), reach) *
+            coverage(std::abs(p.y()), 0.0, 0.88 * h.y(), reach);
+    const double lamps = coverage(std::abs(p.y()), 0.7 * h.y(), 0.92 * h.y(), reach) *
+                         coverage(p.z(), -0.62 * h.z(), -0.45 * h.z(), reach);
+    blend(out, lamps, hit.n_local.x() < 0.0 ? 0.2 : 0.7);
+    out.glow = static_cast<float>(lamps * (hit.n_local.x() < 0.0 ? 0.35 : 6.0));
+  }
+  blend(out, coverage(p.z(), -h.z(), -0.8 * h.z(), reach), 0.04);
+  blend(out, glass, 0.03);
+  out.glow += static_cast<float>(0.12 * glass);  // lit inside
+  out.gloss = static_cast<float>(0.25 + 0.6 * glass);
 }
 
 void SolidShader::tyre(const Primitive& solid, const Hit& hit, Reflectance& out) const {

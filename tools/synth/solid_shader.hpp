@@ -28,6 +28,7 @@ class SolidShader {
   void hedge(const Hit& hit, const Patch& patch, const Primitive& solid, Reflectance& out) const;
   void bodywork(const Primitive& solid, const Hit& hit, const Patch& patch, Reflectance& out) const;
   void cabin(const Primitive& solid, const Hit& hit, const Patch& patch, Reflectance& out) const;
+  void coach(const Primitive& solid, const Hit& hit, const Patch& patch, Reflectance& out) const;
   void tyre(const Primitive& solid, const Hit& hit, Reflectance& out) const;
   void sign(const Primitive& solid, const Hit& hit, const Patch& patch, Reflectance& out) const;
   void tarp(const Primitive& solid, const Hit& hit, const Patch& patch, Reflectance& out) const;

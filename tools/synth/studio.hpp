@@ -15,12 +15,17 @@ class Studio {
 
   [[nodiscard]] double time_s(int frame) const { return frame / config_.rate_hz + 0.1; }
   [[nodiscard]] World world() const {
-    return {terrain_, drive_, scene_, textures_, lighting_, ground_, still_shadows_};
+    return {terrain_, drive_, scene_, textures_, lighting_, ground_, still_shadows_, lamps_};
   }
   [[nodiscard]] const SynthConfig& config() const { return config_; }
   [[nodiscard]] const Drive& drive() const { return drive_; }
   [[nodiscard]] const Terrain& terrain() const { return terrain_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const Attached& attached() const { return attached_; }
+  /// By how much the camera opens up at a time, because it is in the tube.
+  [[nodiscard]] double tube_exposure(double since_start_s) const {
+    return tube_exposure_.factor(since_start_s);
+  }
   /// Frames that the route lasts, at most the configured number.
   [[nodiscard]] int num_frames() const;
 
@@ -34,6 +39,9 @@ class Studio {
   Lighting lighting_;
   GroundShader ground_;
   ShadowGrid still_shadows_;
+  Lamps lamps_;
+  DarkSpan tube_exposure_;
+  Attached attached_;
 };
 
 }  // namespace plumb::synth

@@ -26,8 +26,10 @@ struct Patch {
 
 struct Reflectance {
   float albedo = 0.2F;
-  float gloss = 0.0F;     ///< share of mirror reflection at normal incidence scale
-  float openness = 1.0F;  ///< share of the sky that is not blocked close by
+  float gloss = 0.0F;         ///< share of mirror reflection at normal incidence scale
+  float glow = 0.0F;          ///< radiance of its own at night
+  bool always_glows = false;  ///< by day as well
+  float openness = 1.0F;      ///< share of the sky that is not blocked close by
   Eigen::Vector3d n_map = Eigen::Vector3d::UnitZ();
 };
 

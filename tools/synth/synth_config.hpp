@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/synth/attached.hpp"
 #include "tools/synth/drive.hpp"
 #include "tools/synth/ground_shader.hpp"
 #include "tools/synth/lighting.hpp"
@@ -50,6 +51,9 @@ struct SynthConfig {
   GroundLook ground;
   LightConfig light;
   SensorConfig sensor;
+  AttachedConfig attached;
+  double compression = 0.0;  ///< step of the codec's quantiser, grey levels; 0 = none
+  bool stamp = false;        ///< a printed time stamp
   DarkSpan tunnel;
   DarkSpan covered;
 };

@@ -198,7 +198,8 @@ std::vector<Label> make_labels(const RenderedFrame& frame, const std::vector<Pri
 }
 
 std::string label_row(int frame, const Label& l) {
-  static constexpr std::array<const char*, 3> kTypes{"Car", "Van", "Truck"};
+  static constexpr std::array<const char*, 7> kTypes{"Car", "Van",  "Truck",     "Truck",
+                                                     "Bus", "Tram", "Pedestrian"};
   std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(),
                 "%d %d %s %d %d %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f", frame,

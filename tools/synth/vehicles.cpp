@@ -3,79 +3,18 @@
 
 #include "tools/synth/random.hpp"
 #include "tools/synth/scene.hpp"
+#include "tools/synth/vehicle.hpp"
+#include "tools/synth/vehicle_parts.hpp"
 
 namespace plumb::synth {
 namespace {
 
 using Eigen::Vector3d;
 
-/// A point of a side profile: x forward, z up, of the vehicle.
-struct ProfilePoint {
-  double x;
-  double z;
-};
-
-/// Extrudes a convex side profile (counted counter-clockwise seen from the right) across the width;
-/// the walls lean in by `lean` per metre of height.
-Primitive extrude(const std::vector<ProfilePoint>& profile, double half_width, double lean,
-                  const ObjectPose& pose) {
-  Primitive s;
-  s.shape = Shape::kConvex;
-  double low_x = 1e9;
-  double high_x = -1e9;
-  double low_z = 1e9;
-  double high_z = -1e9;
-  for (const ProfilePoint& p : profile) {
-    low_x = std::min(low_x, p.x);
-    high_x = std::max(high_x, p.x);
-    low_z = std::min(low_z, p.z);
-    high_z = std::max(high_z, p.z);
-  }
-  const Vector3d middle(0.5 * (low_x + high_x), 0.0, 0.5 * (low_z + high_z));
-  s.half = {0.5 * (high_x - low_x), half_width, 0.5 * (high_z - low_z)};
-  const double cos_lean = 1.0 / std::sqrt(1.0 + lean * lean);
-  for (const double side : {1.0, -1.0}) {
-    Plane& plane = s.planes[s.num_planes++];
-    plane.n_local = Vector3d(0.0, side * cos_lean, lean * cos_lean);
-    plane.offset_m = cos_lean * (half_width - lean * s.half.z());
-  }
-  for (std::size_t i = 0; i < profile.size() && s.num_planes < kMaxPlanes; ++i) {
-    const ProfilePoint& a = profile[i];
-    const ProfilePoint& b = profile[(i + 1) % profile.size()];
-    Plane& plane = s.planes[s.num_planes++];
-    plane.n_local = Vector3d(b.z - a.z, 0.0, a.x - b.x).normalized();
-    plane.offset_m = plane.n_local.dot(Vector3d(a.x, 0.0, a.z) - middle);
-  }
-  s.R_map_local = pose.T_map_object.R;
-  s.centre = pose.T_map_object * middle;
-  return s;
-}
-
-Primitive box_at(const Vector3d& centre, const Vector3d& half, const ObjectPose& pose) {
-  Primitive s;
-  s.half = half;
-  s.R_map_local = pose.T_map_object.R;
-  s.centre = pose.T_map_object * centre;
-  return s;
-}
-
-float paint_of(std::uint32_t seed) {
-  static constexpr float kPaints[] = {0.02F, 0.03F, 0.04F, 0.30F, 0.45F, 0.62F, 0.12F, 0.16F};
-  return kPaints[hash_keys(seed, 0xca1) % 8U];
-}
-
 void add_wheels(const ObjectPose& pose, double radius, double inset,
                 std::vector<Primitive>& solids) {
-  for (const double end : {0.5 * pose.size_m.x() - inset, -0.5 * pose.size_m.x() + inset}) {
-    for (const double side : {1.0, -1.0}) {
-      Primitive wheel = box_at({end, side * (0.5 * pose.size_m.y() - 0.10), radius},
-                               {radius, 0.11, radius}, pose);
-      wheel.shape = Shape::kWheel;
-      wheel.material = Material::kTyre;
-      wheel.albedo = 0.03F;
-      solids.push_back(wheel);
-    }
-  }
+  for (const double end : {0.5 * pose.size_m.x() - inset, -0.5 * pose.size_m.x() + inset})
+    add_axle(pose, end, radius, solids);
 }
 
 void add_car(const ObjectPose& pose, std::uint32_t seed, std::vector<Primitive>& solids) {
@@ -143,6 +82,14 @@ Vector3d vehicle_size(VehicleKind kind, std::uint32_t seed) {
       return {random.uniform(4.6, 5.3), random.uniform(1.85, 2.0), random.uniform(1.9, 2.3)};
     case VehicleKind::kTruck:
       return {random.uniform(8.5, 12.0), 2.5, random.uniform(3.5, 3.9)};
+    case VehicleKind::kArticulated:
+      return {random.uniform(15.5, 16.5), 2.55, random.uniform(3.8, 4.0)};
+    case VehicleKind::kBus:
+      return {random.uniform(11.0, 12.5), 2.5, random.uniform(3.0, 3.2)};
+    case VehicleKind::kTram:
+      return {random.uniform(26.0, 32.0), 2.35, random.uniform(3.3, 3.6)};
+    case VehicleKind::kPerson:
+      return {random.uniform(0.35, 0.5), random.uniform(0.42, 0.6), random.uniform(1.55, 1.9)};
     case VehicleKind::kCar:
       break;
   }
@@ -152,10 +99,26 @@ Vector3d vehicle_size(VehicleKind kind, std::uint32_t seed) {
 void add_vehicle(const ObjectPose& pose, std::uint32_t seed, std::int32_t object,
                  std::vector<Primitive>& solids) {
   const std::size_t first = solids.size();
-  if (pose.kind == VehicleKind::kTruck) {
-    add_truck(pose, seed, solids);
-  } else {
-    add_car(pose, seed, solids);
+  switch (pose.kind) {
+    case VehicleKind::kTruck:
+      add_truck(pose, seed, solids);
+      break;
+    case VehicleKind::kArticulated:
+      add_articulated(pose, seed, solids);
+      break;
+    case VehicleKind::kBus:
+      add_bus(pose, seed, solids);
+      break;
+    case VehicleKind::kTram:
+      add_tram(pose, seed, solids);
+      break;
+    case VehicleKind::kPerson:
+      add_person(pose, seed, solids);
+      break;
+    case VehicleKind::kCar:
+    case VehicleKind::kVan:
+      add_car(pose, seed, solids);
+      break;
   }
   for (std::size_t i = first; i < solids.size(); ++i) {
     solids[i].object = object;

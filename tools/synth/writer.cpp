@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <mutex>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "platform/overwrite_guard.hpp"
+#include "tools/synth/codec.hpp"
 
 namespace plumb::synth {
 namespace {
@@ -119,11 +123,56 @@ void write_truth(const Studio& studio, int frames, const std::vector<std::string
   for (TextFile* file : {&times, &poses, &planes, &vehicle, &objects}) file->finish();
 }
 
+/// Prints the time in tenths of a second, as dashcams do.
+void print_stamp(double time_s, cv::Mat& image) {
+  const double size = image.rows / 480.0;
+  const std::string text = format("2024-05-17 14:%02d:%04.1f", 21 + static_cast<int>(time_s) / 60,
+                                  std::fmod(time_s, 60.0));
+  const cv::Point at(static_cast<int>(0.03 * image.cols), static_cast<int>(0.965 * image.rows));
+  const int stroke = std::max(1, static_cast<int>(std::lround(1.6 * size)));
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.7 * size, cv::Scalar(0), stroke + 2);
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.7 * size, cv::Scalar(250), stroke);
+}
+
+/// The codec that all workers share. It takes the pictures in order.
+class CodecQueue {
+ public:
+  explicit CodecQueue(const SynthConfig& config)
+      : used_(config.compression > 0.0),
+        codec_(config.compression, config.render.camera.width_px, config.render.camera.height_px) {}
+
+  /// Codes a picture as soon as those before it are coded. Returns without, once `abandon` was
+  /// called.
+  void pass(int frame, std::vector<std::uint8_t>& picture) {
+    if (!used_) return;
+    std::unique_lock lock(mutex_);
+    turn_.wait(lock, [&] { return next_ == frame || abandoned_; });
+    if (abandoned_) return;
+    codec_.pass(frame, picture);
+    ++next_;
+    turn_.notify_all();
+  }
+  void abandon() {
+    const std::lock_guard lock(mutex_);
+    abandoned_ = true;
+    turn_.notify_all();
+  }
+
+ private:
+  bool used_;
+  Codec codec_;
+  std::mutex mutex_;
+  std::condition_variable turn_;
+  int next_ = 0;
+  bool abandoned_ = false;
+};
+
 /// Renders and writes single frames. Every thread has one.
 class Worker {
  public:
-  explicit Worker(const Studio& studio)
+  Worker(const Studio& studio, CodecQueue& codec)
       : studio_(studio),
+        codec_(codec),
         renderer_(studio.world(), studio.config().render),
         sensor_(studio.config().sensor) {}
 
@@ -132,10 +181,14 @@ class Worker {
     const double t = studio_.time_s(frame);
     const double since_start = t - studio_.time_s(0);
     renderer_.render(t, rendered_);
-    const double light = config.tunnel.factor(since_start) * config.covered.factor(since_start);
+    studio_.attached().lay_over(rendered_);
+    const double light = config.tunnel.factor(since_start) * config.covered.factor(since_start) *
+                         studio_.tube_exposure(since_start);
     sensor_.develop(rendered_, since_start, static_cast<std::uint64_t>(frame), light, bytes_);
     const fs::path path = config.out / kImageFolder / format("%06d.png", frame);
-    const cv::Mat image(rendered_.height_px, rendered_.width_px, CV_8UC1, bytes_.data());
+    cv::Mat image(rendered_.height_px, rendered_.width_px, CV_8UC1, bytes_.data());
+    if (config.stamp) print_stamp(since_start, image);
+    codec_.pass(frame, bytes_);
     if (!cv::imwrite(path.string(), image))
       throw std::runtime_error("cannot write " + path.string());
     std::string rows;
@@ -150,6 +203,7 @@ class Worker {
 
  private:
   const Studio& studio_;
+  CodecQueue& codec_;
   FrameRenderer renderer_;
   Sensor sensor_;
   RenderedFrame rendered_;
@@ -188,14 +242,16 @@ WriteResult write_drive(const Studio& studio, int num_threads, const std::atomic
   int finished = 0;
   std::exception_ptr failure;
   std::mutex mutex;
+  CodecQueue codec(studio.config());
   const auto work = [&] {
-    Worker worker(studio);
+    Worker worker(studio, codec);
     while (!stop) {
       const int frame = next++;
       if (frame >= frames) return;
       try {
         labels[static_cast<std::size_t>(frame)] = worker.write(frame);
       } catch (...) {
+        codec.abandon();
         const std::lock_guard lock(mutex);
         failure = std::current_exception();
         next = frames;

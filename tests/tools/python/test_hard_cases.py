@@ -48,6 +48,15 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(self.figures['speed_covered_percent'], 100.0 * 24 / 28)
         self.assertAlmostEqual(self.figures['event_moved_m'], 5.2)
 
+    def test_counts_what_is_right_and_what_is_stated_and_wrong(self):
+        self.assertAlmostEqual(self.figures['right_percent'], 50.0)
+        self.assertAlmostEqual(self.figures['wrong_percent'], 100.0 * 4 / 30)
+        self.assertEqual(self.figures['denied_frames'], 0)
+
+    def test_counts_a_standstill_that_is_said_while_the_car_moves(self):
+        self.drive.frames[5] = frame('0.0', 'standstill')
+        self.assertEqual(self.drive.figures()['denied_frames'], 1)
+
     def test_measures_the_recovery_and_the_path(self):
         self.assertEqual(self.figures['recovery_frames'], 0)
         self.assertAlmostEqual(self.figures['path_after_percent'], 0.0)

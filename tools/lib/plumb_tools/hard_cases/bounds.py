@@ -8,6 +8,7 @@ SEEN = {'event_statuses': ('event_status', 'is'), 'event_reasons': ('event_reaso
 COLUMNS = ['case', 'what', 'ego status: frames', 'reason in the event', 'first scale at frame',
            'height error mean / max %', 't % (10, 20, 50 m)', 'path %',
            'speed error in the event, median / max m/s', 'within 3 stated standard deviations %',
+           'right / stated and wrong %', 'standstill while moving',
            'moved in the event, true / found m', 'recovery frames', 'path after %']
 
 
@@ -53,5 +54,6 @@ def table_row(case, figures):
             cell('start_frames', '.0f'), cell('height_mean_percent') + ' / ' + cell('height_max_percent', '.1f'),
             cell('t_percent'), cell('path_percent', '+.1f'),
             cell('speed_error_median_m_s') + ' / ' + cell('speed_error_max_m_s'),
-            cell('speed_covered_percent', '.0f'), moved, cell('recovery_frames', '.0f'),
+            cell('speed_covered_percent', '.0f'), cell('right_percent', '.0f') + ' / ' + cell('wrong_percent', '.1f'),
+            cell('denied_frames', '.0f'), moved, cell('recovery_frames', '.0f'),
             cell('path_after_percent', '+.1f')]

@@ -10,7 +10,7 @@ from plumb_tools.hard_cases.measure import ReplayedDrive
 from plumb_tools.hard_cases.rendering import render
 from plumb_tools.programs import OUT, ROOT, Programs, add_bin_option
 
-TABLES = [ROOT / 'tests/hard_cases' / name for name in ('cases.toml', 'camera_cases.toml')]
+TABLES = [ROOT / 'tests/hard_cases' / name for name in ('cases.toml', 'camera_cases.toml', 'road_cases.toml')]
 
 
 def replay(case, log, folder, programs, user_config):

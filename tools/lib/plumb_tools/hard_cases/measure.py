@@ -9,6 +9,8 @@ from plumb_tools.figures import quantile
 START_FRAMES = 15  # until a scale can be expected
 SETTLED_FRAMES = 10  # a recovered speed stays right for as long
 SPEED_BOUND_RATIO, SPEED_BOUND_M_S = 0.05, 0.3  # a speed is right within the larger of both
+START_S = 2.0  # of a drive, in which nothing need be valid
+MOVING_M_S = 0.5  # faster than this nobody stands
 
 
 def rotation_between_rad(a, b):
@@ -66,7 +68,7 @@ class ReplayedDrive:
     def figures(self):
         """Every figure that a case may bound."""
         result = {'frames': len(self.frames), **self._status_figures(), **self._height_figures(),
-                  **self._speed_figures()}
+                  **self._speed_figures(), **self._trust_figures()}
         if self.event:
             result.update(self._event_figures())
         if self.has_event and self.after:
@@ -103,6 +105,20 @@ class ReplayedDrive:
         return {'speed_error_max_m_s': max(in_event, default=math.nan),
                 'speed_error_median_m_s': quantile(in_event, 0.5),
                 'speed_covered_percent': 100.0 * sum(covered) / len(covered) if covered else math.nan}
+
+    def _trust_figures(self):
+        """How many images are right, how many are stated and wrong, and how many deny that we move."""
+        late = [i for i in range(1, len(self.frames)) if self.times[i] - self.times[0] >= START_S]
+        right = sum(self.speed_is_right(i) for i in late)
+        return {'right_percent': 100.0 * right / len(late) if late else math.nan,
+                'wrong_percent': 100.0 * sum(map(self._is_wrong, range(1, len(self.frames)))) / len(self.frames),
+                'denied_frames': sum(self.frames[i]['ego_status'] == 'standstill' and
+                                     self.true_steps[i] > MOVING_M_S * self._interval_s(i)
+                                     for i in range(1, len(self.frames)))}
+
+    def _is_wrong(self, i):
+        error, std = self.speed_errors[i], number(self.frames[i]['speed_std_m_s'])
+        return math.isfinite(error) and not self.speed_is_right(i) and not error <= 3.0 * std
 
     def _event_figures(self):
         poses, true_poses, first = self.poses, self.true_poses, self.event[0]

@@ -27,8 +27,8 @@ def render(case, defaults, folder, programs, reuse):
     With `reuse`, a drive of an older renderer is taken, too.
     """
     drive, log, stamp = folder / 'drive', folder / 'drive.lcm', folder / 'rendered.txt'
-    options = synth_options(defaults['synth'], case['synth'])
-    wanted = [' '.join(options), renderer_digest()]
+    options, log_options = synth_options(defaults['synth'], case['synth']), shlex.split(case.get('log', ''))
+    wanted = [' '.join(options + log_options), renderer_digest()]
     found = stamp.read_text().splitlines() if stamp.exists() and log.exists() else []
     if found == wanted or (reuse and found[:1] == wanted[:1]):
         return drive, log
@@ -36,6 +36,6 @@ def render(case, defaults, folder, programs, reuse):
     stamp.unlink(missing_ok=True)
     programs.run('plumb-synth', '--out', drive, '--force', '--quiet', *options)
     log.unlink(missing_ok=True)
-    programs.run('plumb-kitti2lcm', drive, '--out', log)
+    programs.run('plumb-kitti2lcm', drive, '--out', log, *log_options)
     stamp.write_text('\n'.join(wanted) + '\n')
     return drive, log
