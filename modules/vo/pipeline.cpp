@@ -355,15 +355,13 @@ void Pipeline::judge_orientation() {
   } else if (now == Orientation::kUnproven) {
     out_.reason = VoReason::kOrientationUnproven;
     // Where neither road nor houses are seen, what does not move may drive along.
-    const bool stands =
-        out_.status == VoStatus::kStandstill || out_.status == VoStatus::kRotationOnly;
-    if (stands) out_.status = VoStatus::kInitializing;
+    if (out_.status != VoStatus::kOk && out_.status != VoStatus::kCoasting)
+      out_.status = VoStatus::kInitializing;
   }
 }
 
-/// Adds the features that are new in this image, and the middles of the cells that are attached to
-/// the camera, where no feature is tracked any more. No other kind is known while the motion is not,
-/// or is not the features'.
+/// Adds new features, and the middles of cells that are attached to the camera, where none is
+/// tracked any more. No other kind is known while the motion is not, or is not the features'.
 void Pipeline::report_features() {
   const bool knows_motion = (out_.status == VoStatus::kOk || out_.status == VoStatus::kStandstill ||
                              out_.status == VoStatus::kRotationOnly) &&
