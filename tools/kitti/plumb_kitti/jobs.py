@@ -1,5 +1,6 @@
 """The jobs of the workflow. Each leaves its files below the folder of results, the last one whole."""
 import json
+import math
 import pathlib
 import shutil
 import statistics
@@ -9,7 +10,7 @@ import zipfile
 from plumb_kitti import plan as plans
 from plumb_kitti import staging
 from plumb_tools.command_line import UsageError
-from plumb_tools.drive_files import read_frames
+from plumb_tools.drive_files import positions, read_frames, read_poses
 from plumb_tools.programs import Programs
 
 LENGTHS = {'short': '10,20,50', 'long': 'new'}
@@ -77,9 +78,12 @@ def log(job, name):
             print(f'job: {name}: {error}', file=sys.stderr)
     (job.out / 'logs').mkdir(exist_ok=True)
     whole = job.out / 'logs' / f'{name}.lcm'
-    part = whole.with_suffix('.part.lcm')
-    job.programs.run('plumb-kitti2lcm', staged, '--out', part, '--camera', drive['camera'],
-                     log=job.out / 'logs' / f'{name}.txt')
+    part, said = whole.with_suffix('.part.lcm'), job.out / 'logs' / f'{name}.txt'
+    if drive['kind'] == 'folder':
+        rate = ['--times', staged / 'times.txt'] if drive['times'] else ['--rate', staging.read_map(drive['map'])['rate_hz']]
+        job.programs.run('plumb-convert', staged / 'images', '--camera', staged / 'camera.toml', *rate, '--out', part, log=said)
+    else:
+        job.programs.run('plumb-kitti2lcm', staged, '--out', part, '--camera', drive['camera'], log=said)
     part.replace(whole)
 
 
@@ -114,6 +118,15 @@ def evaluate(job, name, folder, result):
         result['plane'] = json.loads((folder / 'plane.json').read_text())
 
 
+def end_point(poses, road):
+    """How a path ends against the map: distance of its end from its beginning, error in % of the road's length."""
+    places = positions(poses)
+    distance_m = math.dist(places[0], places[-1])
+    return {'map_length_m': road['length_m'], 'path_m': sum(math.dist(a, b) for a, b in zip(places, places[1:])),
+            'end_distance_m': distance_m,
+            'error_percent': 100.0 * abs(distance_m - road['end_distance_m']) / road['length_m']}
+
+
 def run(job, name, mode, number):
     """Replays a drive in a mode, disturbed as the trial says, and measures it."""
     folder = fresh_folder(job.out / 'runs' / name / mode / number)
@@ -132,6 +145,8 @@ def run(job, name, mode, number):
               'ego_status': counts_of(frames, 'ego_status')}
     if (folder / 'truth.txt').exists():
         evaluate(job, name, folder, result)
+    if job.drive(name)['map']:
+        result['end_point'] = end_point(read_poses(folder / 'poses.txt'), staging.read_map(job.drive(name)['map']))
     write_json(folder / 'result.json', result)
 
 
