@@ -1,6 +1,8 @@
 """Tests tools/kitti/plumb-kitti: what it finds, what it names as missing, how it stages, plans and shows."""
 import dataclasses
 import json
+import math
+import os
 import sys
 import types
 import unittest
@@ -8,7 +10,7 @@ import unittest
 import support
 
 sys.path.insert(0, str(support.ROOT / 'tools/kitti'))
-from plumb_kitti import blocks, discover, driver, missing, page, plan, sections, staging
+from plumb_kitti import blocks, discover, driver, jobs, keys, missing, objects, page, plan, sections, staging, tracklets, training
 from plumb_kitti.results import Results
 from plumb_tools.command_line import UsageError
 
@@ -117,6 +119,98 @@ class Staging(KittiTree):
         self.assertTrue((self.folder / 'staged/label_02.txt').exists())
 
 
+    def tracklet_drive(self):
+        """The raw drive with a car 20 m ahead of the scanner and 2 m to the left, driving away; the third image has it no more."""
+        raw = 'kitti/raw/2011_09_26/2011_09_26_drive_0009_sync'
+        self.write('kitti/raw/2011_09_26/calib_velo_to_cam.txt', 'calib_time: x\nR: 0 -1 0 0 0 -1 1 0 0\nT: 0.1 -0.2 -0.3\n')
+        self.write('kitti/raw/2011_09_26/calib_cam_to_cam.txt',
+                   f'P_rect_00: {P}\nP_rect_02: {P}\nS_rect_02: 1242 375\nR_rect_00: 1 0 0 0 1 0 0 0 1\n')
+        pose = '<item><tx>{}</tx><ty>2</ty><tz>-1.75</tz><rx>0</rx><ry>0</ry><rz>0</rz><occlusion>1</occlusion>' \
+               '<truncation>{}</truncation></item>'
+        poses = pose.format(20, 0) + pose.format(21, 0) + pose.format(-5, 99)
+        self.write(f'{raw}/tracklet_labels.xml', '<boost_serialization><tracklets><count>1</count><item><objectType>Car'
+                   '</objectType><h>1.5</h><w>1.6</w><l>4</l><first_frame>1</first_frame><poses><count>3</count>' + poses +
+                   '</poses></item></tracklets></boost_serialization>')
+        return dataclasses.asdict({drive.name: drive for drive in self.find()[0]}['2011_09_26_drive_0009'])
+
+    def test_tracklets_become_labels(self):
+        staging.stage(self.tracklet_drive(), self.folder / 'staged', with_labels=True)
+        rows = [line.split() for line in (self.folder / 'staged/label_02.txt').read_text().splitlines()]
+        self.assertEqual([row[:5] for row in rows], [['1', '0', 'Car', '0', '1'], ['2', '0', 'Car', '0', '1']])
+        alpha, left, top, right, bottom, *rest = (float(word) for word in rows[0][5:])
+        # x right is -y left, y down is -z up, z ahead; the box spans the nearest face and the farthest one.
+        for value, wanted in zip(rest, (1.5, 1.6, 4, -1.9, 1.55, 19.7, -math.pi / 2)):
+            self.assertAlmostEqual(value, wanted, places=5)
+        self.assertAlmostEqual(left, 600 + 700 * (-1.9 - 0.8) / 17.7, places=3)
+        self.assertAlmostEqual(right, 600 + 700 * (-1.9 + 0.8) / 21.7, places=3)
+        self.assertAlmostEqual(bottom, 180 + 700 * 1.55 / 17.7, places=3)
+        self.assertAlmostEqual(top, 180 + 700 * 0.05 / 21.7, places=3)
+        self.assertAlmostEqual(alpha, -math.pi / 2 + math.atan2(1.9, 19.7), places=5)
+
+    def test_refuses_what_are_no_tracklets(self):
+        with self.assertRaisesRegex(UsageError, 'no element found'):
+            tracklets.read(self.write('a.xml', ''))
+        with self.assertRaisesRegex(UsageError, 'no tracklets/item in it'):
+            tracklets.read(self.write('b.xml', '<boost_serialization/>'))
+        with self.assertRaisesRegex(UsageError, 'a tracklet has no number w'):
+            tracklets.read(self.write('c.xml', '<b><tracklets><item><h>1</h><w>x</w></item></tracklets></b>'))
+
+    def test_a_map_states_how_the_road_ends(self):
+        road = staging.read_map(self.write('map.toml', 'length_m = 100.0\nend_distance_m = 60\n'))
+        self.assertEqual(road, {'length_m': 100.0, 'end_distance_m': 60, 'rate_hz': 10.0})
+        path = [[1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, z] for x, z in ((0, 0), (0, 40), (30, 40))]
+        end = jobs.end_point(path, road)
+        self.assertEqual((end['path_m'], end['end_distance_m'], end['error_percent']), (70.0, 50.0, 10.0))
+        for text, sentence in (('', 'length_m is missing'), ('length_m = -1', r'length_m = -1 is not a number in \[0.1'),
+                               ('lenght_m = 1', 'unknown key lenght_m; did you mean length_m')):
+            with self.assertRaisesRegex(UsageError, sentence):
+                staging.read_map(self.write('map.toml', text))
+
+    def test_a_folder_with_a_map_is_a_drive(self):
+        self.images('hague/one/images')
+        self.write('hague/one/map.toml', 'length_m = 609.34\n')
+        drive, = discover.find(self.folder / 'hague')[0]
+        self.assertEqual((drive.kind, drive.num_images, drive.lacks), ('folder', 2, ['camera.toml (docs/add_a_camera.md)']))
+        self.write('hague/one/camera.toml', '[camera]\nfx_px = 500.0\ncamera_height_m = 1.4\n')
+        drive, = discover.find(self.folder / 'hague')[0]
+        facts, _ = plan.camera_facts(dataclasses.asdict(drive))
+        self.assertEqual((facts['fx_px'], facts['height_m'], drive.lacks), (500.0, 1.4, []))
+
+
+class Keys(KittiTree):
+    """What makes a job run again: nothing but a change of what it depends on."""
+
+    def setUp(self):
+        super().setUp()
+        self.options = types.SimpleNamespace(trials=1, modes=['default'], bin=self.folder / 'bin')
+        self.write('bin/plumb-replay', 'one')
+
+    def written(self):
+        """The keys that a call of plumb-kitti rewrites."""
+        made = plan.make([self.plain('04')], [], self.options, {}, {})
+        folder = self.folder / 'out/keys'
+        before = {path: path.stat().st_mtime_ns for path in folder.rglob('*') if path.is_file()}
+        keys.write(made, ['plumb-replay'], self.folder / 'out')
+        return {str(path.relative_to(folder)) for path in folder.rglob('*') if path.is_file()
+                and before.get(path) != path.stat().st_mtime_ns}
+
+    def test_nothing_changed_rewrites_nothing(self):
+        self.assertLessEqual({'steps', 'program/plumb-replay', 'mode/default', 'drive/04', 'trial/04/1'}, self.written())
+        self.assertEqual(self.written(), set())
+
+    def test_a_new_program_a_new_setting_or_new_data_is_seen(self):
+        self.written()
+        self.write('bin/plumb-replay', 'two')
+        self.assertEqual(self.written(), {'program/plumb-replay'})
+        self.addCleanup(plan.MODES.update, default=plan.MODES['default'])
+        plan.MODES['default'] = '[ground]\n'
+        self.assertEqual(self.written(), {'mode/default'})
+        self.write('kitti/dataset/poses/04.txt', '1 0 0 0 0 1 0 0 0 0 1 1\n' * 2)
+        self.assertEqual(self.written(), {'drive/04'})
+        os.utime(self.folder / 'kitti/dataset/sequences/04/image_0/000000.png', (1, 4e9))
+        self.assertEqual(self.written(), {'drive/04'})
+
+
 class Plan(KittiTree):
     def make(self, trials):
         options = types.SimpleNamespace(trials=trials, modes=['paper', 'default'], bin=self.folder)
@@ -195,7 +289,7 @@ class Sections(support.FolderTest):
     def setUp(self):
         super().setUp()
         drives = {name: {'name': name, 'kind': 'odometry', 'number': name, 'num_images': 50, 'poses': 'p', 'oxts': '',
-                         'planes': '', 'velodyne': '', 'rig': 'r', 'camera_facts': {'fx_px': 1.0, 'height_m': 1.65}}
+                         'planes': '', 'velodyne': '', 'map': '', 'rig': 'r', 'camera_facts': {'fx_px': 1.0, 'height_m': 1.65}}
                   for name in ('04', '05')}
         self.plan = {'drives': drives, 'modes': ['default', 'paper', 'paper-fixed'], 'boxes': {}, 'others': {}, 'planes': [],
                      'trials': {'04': [{}, {}], '05': [{}, {}]}, 'missing': []}
@@ -229,6 +323,57 @@ class Sections(support.FolderTest):
         rows = {row[0]: row for row in self.cells(sections.figure_10(Results(self.folder, self.plan)))}
         self.assertEqual(rows['adaptive'], ['adaptive', '2.50', '100.0', '-', '-', '3.97'])
         self.assertEqual(rows['constant'][1:5], ['-', '-', '-', '-'])
+
+    def test_a_histogram_has_as_many_errors_in_every_bin_of_the_confidence(self):
+        pairs = sorted((math.sin(7.0 * k) + 2.0, abs(math.cos(3.0 * k))) for k in range(400))
+        cells = training.histogram(pairs)
+        self.assertEqual(sum(cell[4] for cell in cells), 400)
+        columns = {}
+        for low, _, _, _, number in cells:
+            columns[low] = columns.get(low, 0) + number
+        self.assertEqual(set(columns.values()), {8})
+        self.assertEqual(training.histogram(pairs[:15]), [])
+
+    def test_training_draws_what_the_samples_hold(self):
+        self.write('fit/samples/04.csv', '# plumb\npaper_width_height,paper_err_height\n' +
+                   ''.join(f'{0.1 + 0.001 * k},{0.01 * (k % 7)}\n' for k in range(90)) + ',0.3\n')
+        self.write('fit/fit.json', json.dumps({'paper': [{'name': 'h', 'offset': 0.1, 'slope': 2.0, 'bins': [
+            {'confidence': 0.1, 'variance': 0.3}, {'confidence': 0.2, 'variance': 0.5}]}]}))
+        charts = [b for b in training.training(Results(self.folder, self.plan))['blocks'] if b['type'] != 'note']
+        self.assertEqual([chart['type'] for chart in charts], ['heat', 'lines'])
+        self.assertEqual(sum(row['n'] for row in charts[0]['rows']), 90)
+        self.assertEqual(charts[1]['curves'][1]['y'], [0.3, 0.5])
+
+    def test_figure_12_pools_training_and_test_sequences_by_objects(self):
+        drives = {f'tracking_{n:04d}': {'kind': 'tracking', 'folder': '/x/training', 'number': f'{n:04d}'} for n in (3, 9, 12)}
+        self.plan.update(boxes={drive: ['label_02'] for drive in drives}, planes=['paper'], drives=drives)
+        self.assertEqual(objects.groups_of(self.plan)['tracking 9 to 20, test'], ['tracking_0009', 'tracking_0012'])
+        for number, (samples, error) in {3: (4, 50.0), 9: (1, 10.0), 12: (3, 30.0)}.items():
+            figures = {'all': {'num_samples': samples, 'foot_depth_error_percent': error, 'depth_error_percent': error,
+                               'position_error_percent': error}}
+            self.write(f'placed/tracking_{number:04d}/label_02/paper/result.json',
+                       json.dumps({'close': {'all': {'num_samples': 0}}, 'distant': figures}))
+        rows = {row[0]: row for row in self.cells(objects.figure_12(Results(self.folder, {**self.plan, 'trials': {
+            drive: [] for drive in drives}})))}
+        self.assertEqual(rows['tracking 9 to 20, test'][6:], ['4', '25.0', '25.0'])
+        self.assertEqual(rows['tracking 0 to 8, training'][6:], ['4', '50.0', '50.0'])
+
+    def test_tables_2_and_3_stand_beside_the_papers_values(self):
+        self.plan['drives']['04']['map'] = 'map.toml'
+        self.plan['drives']['05']['map'] = ''
+        folder = self.folder / 'runs/04/default/0/result.json'
+        folder.write_text(json.dumps({**json.loads(folder.read_text()),
+                                      'end_point': {'map_length_m': 600.0, 'error_percent': 4.25}}))
+        rows = self.cells(objects.tables_2_and_3(Results(self.folder, self.plan)))
+        self.assertIn(['04', '50', '600.00', '-', '4.25', '-'], rows)
+        self.assertIn(['The Hague 2', '3000', '834.39', '1.99', '', ''], rows)
+        entry = {reach: {'all': {'num_samples': n, 'foot_depth_error_percent': e, 'position_error_percent': 2 * e}}
+                 for reach, n, e in (('close', 1, 10.0), ('distant', 3, 20.0))}
+        for plane in objects.PLANES_OF_TABLE_3:
+            self.write(f'placed/2011_09_26_drive_0056/label_02/{plane}/result.json', json.dumps(entry))
+        rows = {row[0]: row for row in self.cells(objects.tables_2_and_3(Results(self.folder, self.plan)))}
+        self.assertEqual(rows['2011_09_26_drive_0056'][-6:], ['17.5'] * 3 + ['35.0'] * 3)
+        self.assertEqual(rows['2011_09_29_drive_0004'][-6:], ['data not here'] * 6)
 
     def test_every_figure_is_there(self):
         results = Results(self.folder, self.plan)
