@@ -26,7 +26,8 @@ namespace plumb {
 class PaperGround final : public GroundAlgorithm {
  public:
   /// @pre configs inside the ranges of their visit(); camera.width_px, height_px >= 64
-  PaperGround(const GroundConfig& config, const PaperConfig& paper, const CameraModel& camera,
+  PaperGround(const GroundConfig& config, const PaperConfig& paper,
+              const DetectionsConfig& detections, const CameraModel& camera,
               const PaperModel& model = built_in_paper_model());
   ~PaperGround() override;
 
