@@ -6,7 +6,7 @@ const COLOURS = {
   truth: 'var(--truth)', constant: 'var(--constant)', default: 'var(--c1)', adaptive: 'var(--c2)',
   'paper, adaptive': 'var(--c2)', fixed: 'var(--c3)', 'paper, fixed': 'var(--c3)', 'dense alone': 'var(--c4)',
   'paper, dense alone': 'var(--c4)', 'points alone': 'var(--c5)', 'paper, points alone': 'var(--c5)',
-  calibrated: 'var(--constant)', bins: 'var(--c4)', line: 'var(--c1)',
+  calibrated: 'var(--constant)', cost: 'var(--c4)', candidates: 'var(--c4)', bins: 'var(--c4)', line: 'var(--c1)',
 };
 const SPARE = ['var(--c6)', 'var(--c7)', 'var(--c8)'];
 

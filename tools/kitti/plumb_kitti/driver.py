@@ -14,7 +14,7 @@ from plumb_tools.command_line import UsageError
 from plumb_tools.programs import OUT, Programs, add_bin_option
 
 SNAKEFILE = pathlib.Path(__file__).resolve().parents[1] / 'Snakefile'
-PROGRAMS = ('plumb-kitti2lcm', 'plumb-convert', 'plumb-planes', 'plumb-trial', 'plumb-replay', 'plumb-eval', 'plumb-train')
+PROGRAMS = ('plumb-kitti2lcm', 'plumb-convert', 'plumb-planes', 'plumb-trial', 'plumb-replay', 'plumb-eval', 'plumb-train', 'plumb-boxes')
 STEPS = re.compile(r'^(\d+) of (\d+) steps')
 
 
@@ -38,6 +38,7 @@ def parse_options():
     parser.add_argument('--profile', type=command_line.folder)
     parser.add_argument('--boxes', type=named_folder, action='append', default=[])
     parser.add_argument('--others', type=named_folder, action='append', default=[])
+    parser.add_argument('--detector', type=command_line.file)
     parser.add_argument('--dry', action='store_true')
     add_bin_option(parser)
     return parser.parse_args()

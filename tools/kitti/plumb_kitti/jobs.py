@@ -8,7 +8,7 @@ import sys
 import zipfile
 
 from plumb_kitti import plan as plans
-from plumb_kitti import staging
+from plumb_kitti import staging, training_jobs
 from plumb_tools.command_line import UsageError
 from plumb_tools.drive_files import positions, read_frames, read_poses
 from plumb_tools.programs import Programs
@@ -172,9 +172,11 @@ def placed(job, name, boxes, plane):
     staging.stage(drive, staged, with_labels=True)
     config = job.settings(name, plans.PLANES[plane], plans.is_paper(plane), folder / 'settings.toml')
     files = [folder / 'frames.csv', folder / 'objects.csv']
+    own = training_jobs.candidates_of(job, name)
+    candidates = ['--candidates', own] if own else []
     try:
         job.programs.run('plumb-kitti2lcm', staged, '--camera', drive['camera'], '--detections',
-                         staged / f'{boxes}.txt', '--out', folder / 'boxes.lcm')
+                         staged / f'{boxes}.txt', *candidates, '--out', folder / 'boxes.lcm')
         job.programs.run('plumb-replay', folder / 'boxes.lcm', '--config', config, '--csv', files[0], '--objects',
                          files[1], '--no-times', log=folder / 'replay.txt')
         job.programs.run('plumb-eval', 'placed', staged, *files, '--config', config, '--boxes', f'{boxes}.txt', '--json',
@@ -211,26 +213,6 @@ def other(job, system, name):
     write_json(folder / f'{name}.json', result)
 
 
-def sample(job, name):
-    """What the cues of the published method measured beside the truth."""
-    folder = job.out / 'fit' / 'samples'
-    folder.mkdir(parents=True, exist_ok=True)
-    config = job.settings(name, plans.MODES['paper'], True, folder / f'{name}.toml')
-    part = folder / f'{name}.part'
-    job.programs.run('plumb-train', 'sample', job.out / 'logs' / f'{name}.lcm', '--out', part, '--config', config,
-                     '--drive', name, '--again')
-    part.replace(folder / f'{name}.csv')
-
-
-def fit(job):
-    """Fits the published method's lines to all samples."""
-    folder = job.out / 'fit'
-    part = folder / 'fit.part.json'
-    job.programs.run('plumb-train', 'fit', *sorted((folder / 'samples').glob('*.csv')), '--out', folder / 'model.toml',
-                     '--json', part, log=folder / 'fit.txt')
-    part.replace(folder / 'fit.json')
-
-
 def server(job):
     """The benchmark server's files: sequences 11 to 21 if they are here, else every drive's."""
     names = [name for name, drive in job.plan['drives'].items()
@@ -249,7 +231,8 @@ def server(job):
 def main():
     from plumb_kitti import compare, page, report
     known = {function.__name__: function for function in
-             (log, run, rig, placed, objects, other, sample, fit, server, compare.compare, page.bundle, report.report)}
+             (log, run, rig, placed, objects, other, server, training_jobs.candidates, training_jobs.sample,
+              training_jobs.boxes, training_jobs.example, training_jobs.fit, compare.compare, page.bundle, report.report)}
     if len(sys.argv) < 3 or sys.argv[2] not in known:
         raise UsageError('want OUT and the name of a job')
     known[sys.argv[2]](Job(sys.argv[1]), *sys.argv[3:])

@@ -12,7 +12,7 @@ from plumb_kitti import plan as plans
 
 HERE = pathlib.Path(__file__).resolve().parent
 # The modules whose code decides what a job does; those of the page are not among them, since it is always made anew.
-STEPS = ('jobs.py', 'staging.py', 'tracklets.py')
+STEPS = ('jobs.py', 'staging.py', 'tracklets.py', 'training_jobs.py')
 FILES = ('calib', 'times', 'poses', 'planes', 'labels', 'tracklets', 'candidates', 'map')
 FOLDERS = ('images', 'oxts', 'velodyne', 'road_labels')
 
@@ -53,6 +53,7 @@ def texts(plan, programs):
         found[f'labels/{number}'] = json.dumps([[path, *state_of_folder(path)] for path in sources])
     for system, files in plan['others'].items():
         found.update({f'other/{system}/{drive}': digest(path) for drive, path in files.items()})
+    found['detector'] = digest(plan['detector']) if plan['detector'] else ''
     return found
 
 

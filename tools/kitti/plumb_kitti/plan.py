@@ -62,10 +62,14 @@ def make(drives, label_folders, options, trackers, others):
     trials = {drive['name']: [trial_of(k, drive['num_images']) for k in range(options.trials + 1)] for drive in drives}
     boxes = {drive['name']: ['label_02', *sorted(drive['boxes'])] for drive in drives
              if drive['labels'] or drive['tracklets']}
-    return {'bin': str(pathlib.Path(options.bin).resolve()), 'drives': {drive['name']: drive for drive in drives},
+    by_name = {drive['name']: drive for drive in drives}
+    true = [drive['name'] for drive in drives if drive['poses'] or drive['oxts']]
+    seen = [name for name in true if name in boxes and (options.detector or by_name[name]['candidates'])]
+    return {'bin': str(pathlib.Path(options.bin).resolve()), 'drives': by_name,
             'modes': sorted({'default', *options.modes}, key=list(MODES).index), 'trials': trials, 'boxes': boxes,
             'planes': list(PLANES), 'label_folders': {str(k): path for k, path in enumerate(label_folders)},
-            'trackers': trackers, 'others': others}
+            'trackers': trackers, 'others': others,
+            'detector': str(options.detector.resolve()) if options.detector else '', 'example': (seen or true)[:1]}
 
 
 def write(plan, path):
