@@ -55,7 +55,8 @@ struct Rehearsal {
     test::script_vo(footage().poses, k, script, &vo);
     vo.scale_epoch = epoch;
     vo.scale_carry_std = carry_std;
-    GroundInput input{&vo};
+    GroundInput input;
+    input.vo = &vo;
     input.due.frame = boxes;
     if (with_images) input.image = footage().images[static_cast<std::size_t>(k)].view();
     return ground.update(input, probe);
