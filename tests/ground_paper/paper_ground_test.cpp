@@ -127,7 +127,7 @@ TEST(PaperGround, FixedCovariancesDoNotFollowTheConfidence) {
 TEST(PaperGround, TakesObjectsIntoTheSameFusion) {
   Rehearsal without(paper_config());
   Rehearsal with(paper_config());
-  const DetectionFrame boxes = test::cars_at_pitch(footage().camera, 0.03, {15.0, 40.0});
+  const DetectionFrame boxes = test::cars_at_pitch(footage().camera, 0.03, {12.0, 25.0});
   GroundOutput a, b;
   for (int k = 0; k < 10; ++k) {
     a = without.step(k);

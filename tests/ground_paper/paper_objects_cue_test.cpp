@@ -37,7 +37,7 @@ DetectionFrame one_car(double foot_std_px, double height_std_px) {
 TEST(PaperObjectsCue, FindsThePitchFromEveryObjectAlone) {
   const CameraModel camera = test::scene_camera();
   PaperObjectsCue cue(DetectionsConfig{}, camera, 0.0);
-  DetectionFrame frame = test::cars_at_pitch(camera, kCarPitch, {12.0, 25.0, 45.0});
+  DetectionFrame frame = test::cars_at_pitch(camera, kCarPitch, {12.0, 18.0, 28.0});
   const PaperObjects objects = cue.measure(frame, test::kRoadHeight);
   ASSERT_EQ(objects.size(), 3U);
   for (const PaperObject& object : objects) {
@@ -46,7 +46,7 @@ TEST(PaperObjectsCue, FindsThePitchFromEveryObjectAlone) {
   }
   // A car that is taller than its class looks as if the camera were pitched further up, and no
   // other object mends that: the published cue has no track and no vote.
-  frame.detections[1] = test::car_at(camera, kCarPitch, 25.0, -2.0, 1.8);
+  frame.detections[1] = test::car_at(camera, kCarPitch, 18.0, -2.0, 1.8);
   const PaperObjects& again = cue.measure(frame, test::kRoadHeight);
   EXPECT_LT(again[1].n3, std::sin(kCarPitch) - 0.005);
   EXPECT_NEAR(again[0].n3, std::sin(kCarPitch), 1e-6);
@@ -55,7 +55,7 @@ TEST(PaperObjectsCue, FindsThePitchFromEveryObjectAlone) {
 TEST(PaperObjectsCue, LeavesOutWhatIsCutOrWithoutAKnownHeight) {
   const CameraModel camera = test::scene_camera();
   PaperObjectsCue cue(DetectionsConfig{}, camera, 0.0);
-  DetectionFrame frame = test::cars_at_pitch(camera, kCarPitch, {12.0, 25.0, 45.0});
+  DetectionFrame frame = test::cars_at_pitch(camera, kCarPitch, {12.0, 18.0, 28.0});
   frame.detections[0].truncated_ratio = 0.5;
   frame.detections[1].object_class = ObjectClass::kUnknown;
   const PaperObjects& objects = cue.measure(frame, test::kRoadHeight);
