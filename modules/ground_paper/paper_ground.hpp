@@ -17,6 +17,7 @@
 
 #include <memory>
 
+#include "modules/detections/detections_config.hpp"
 #include "modules/ground/ground.hpp"
 #include "modules/ground_paper/paper_config.hpp"
 #include "modules/ground_paper/paper_model.hpp"

@@ -44,11 +44,11 @@ TEST(PaperObjectsCue, FindsThePitchFromEveryObjectAlone) {
     EXPECT_NEAR(object.n3, std::sin(kCarPitch), 1e-6);
     EXPECT_TRUE(std::isnan(object.confidence_px2));
   }
-  // A car that is taller than its class looks as if the camera were pitched further up, and no
+  // A car that is taller than its class looks as if the camera were pitched further down, and no
   // other object mends that: the published cue has no track and no vote.
   frame.detections[1] = test::car_at(camera, kCarPitch, 18.0, -2.0, 1.8);
   const PaperObjects& again = cue.measure(frame, test::kRoadHeight);
-  EXPECT_LT(again[1].n3, std::sin(kCarPitch) - 0.005);
+  EXPECT_GT(again[1].n3, std::sin(kCarPitch) + 0.005);
   EXPECT_NEAR(again[0].n3, std::sin(kCarPitch), 1e-6);
 }
 
