@@ -54,6 +54,7 @@ void check_all_bounds(const std::string& path, const TrainedModels& models) {
   check_line("paper_dense_n3", models.paper.dense_n3);
   check_line("paper_dense_h", models.paper.dense_h);
   check_line("paper_points_h", models.paper.points_h);
+  check_line("paper_objects_n3", models.paper.objects_n3);
 }
 
 double rounded(double value) {

@@ -152,6 +152,7 @@ const char* GroundNode::process(const ImageFrame* frame) {
   probe_->begin();
   GroundInput input{
       &vo_, {}, objects_->update(vo_, camera_height_), camera_height_, is_height_correction_};
+  input.due = objects_->due();
   const char* refused = nullptr;
   if (frame != nullptr) refused = decoder_->decode(*frame, &input.image);
   if (input.image.empty()) ++num_unpaired_;

@@ -20,7 +20,7 @@ struct PaperConfig {
   template <typename Config, typename Visit>
   static void visit(Config& c, Visit&& field) {
     field("ground.cues", c.cues, {"all", "dense", "points"},
-          "published method: cues of the height to fuse");
+          "published method: cues to fuse; objects take part in all alone");
     field("ground.paper.rho", c.rho, 1.01, 10.0, "base of the dense cue's cost, equation (7)");
     field("ground.paper.mu", c.mu, 0.1, 10000.0,
           "1/m^2; sharpness of the points' vote, equation (8)");

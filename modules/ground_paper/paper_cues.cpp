@@ -40,21 +40,25 @@ CueReport report_of(const PaperPointsMeasurement& points, const PaperVariances& 
   return report;
 }
 
-CueReport add_objects(std::span<const ObjectsMeasurement> objects, CueFusion* fused) {
+CueReport add_objects(const PaperObjects& objects, const Eigen::Matrix3d& R_newest_due,
+                      const PaperVariances& variances, CueFusion* fused) {
   CueReport report;
+  const LinearVariance& line = variances.model.objects_n3;
   CueFusion together;
-  for (const ObjectsMeasurement& object : objects) {
-    if (!std::isfinite(object.n3) || !(object.n3_var > 0.0)) continue;
-    together.add(kN3, object.n3, object.n3_var);
-    fused->add(kN3, object.n3, object.n3_var);
+  for (const PaperObject& object : objects) {
+    const Eigen::Vector3d normal = {0.0, std::sqrt(1.0 - object.n3 * object.n3), object.n3};
+    const double n3 = (R_newest_due * normal).z();
+    const double var = std::isfinite(object.confidence_px2)
+                           ? variances.of(line, object.confidence_px2)
+                           : line.mean;
+    together.add(kN3, n3, var);
+    fused->add(kN3, n3, var);
   }
   if (!together.observes(kN3)) return report;
   report.status = CueStatus::kUsed;
   report.n3 = together.value(kN3);
   report.n3_var = together.var(kN3);
-  report.quality = objects.front().quality;
-  report.features = {objects.front().confidence};
-  report.num_features = 1;
+  report.quality = std::min(1.0, line.least / report.n3_var);
   return report;
 }
 

@@ -5,12 +5,11 @@
 ///   Reports in [vo], the fusion in metres.
 #pragma once
 
-#include <span>
-
 #include "modules/ground/types/ground_types.hpp"
 #include "modules/ground_paper/cue_fusion.hpp"
 #include "modules/ground_paper/paper_dense_cue.hpp"
 #include "modules/ground_paper/paper_model.hpp"
+#include "modules/ground_paper/paper_objects_cue.hpp"
 #include "modules/ground_paper/paper_points_cue.hpp"
 
 namespace plumb {
@@ -30,8 +29,11 @@ struct PaperVariances {
 [[nodiscard]] CueReport report_of(const PaperPointsMeasurement& points,
                                   const PaperVariances& variances, double metres_per_vo);
 
-/// Adds every object to `fused` as an observation of n3 of its own, and reports all of them as one.
-[[nodiscard]] CueReport add_objects(std::span<const ObjectsMeasurement> objects, CueFusion* fused);
+/// Adds every object to `fused` as an observation of n3 of its own, brought to the newest image by
+/// `R_newest_due`, and reports all of them as one. An object without a_d has the mean variance.
+[[nodiscard]] CueReport add_objects(const PaperObjects& objects,
+                                    const Eigen::Matrix3d& R_newest_due,
+                                    const PaperVariances& variances, CueFusion* fused);
 
 /// Adds a used cue's components to `fused`; another cue adds nothing.
 void add_report(const CueReport& report, double metres_per_vo, CueFusion* fused);

@@ -42,6 +42,10 @@ class PaperDenseCue {
   [[nodiscard]] PaperDenseMeasurement measure(const ImageView& old_image, const Se3& T_old_cam,
                                               const Eigen::Vector3d& expected) const;
 
+  /// The cost at 50 places along one component of z, with the others fixed (section 5.1.1).
+  [[nodiscard]] Slice slice(const ImageView& old_image, const Se3& T_old_cam,
+                            const Eigen::Vector3d& z, PlaneComponent along) const;
+
   /// Finds the height at which a road of that normal fits best, over all plausible speeds; 0 when
   /// none does. It serves the start, when the unit of t is not known yet.
   [[nodiscard]] double search_height(const ImageView& old_image, const Se3& T_old_cam,
@@ -50,8 +54,6 @@ class PaperDenseCue {
  private:
   [[nodiscard]] double cost(const ImageView& old_image, const Se3& T_old_cam,
                             const Eigen::Vector3d& z) const;
-  [[nodiscard]] Slice slice(const ImageView& old_image, const Se3& T_old_cam,
-                            const Eigen::Vector3d& z, PlaneComponent along) const;
 
   RoadRegion region_;
   double ln_rho_;

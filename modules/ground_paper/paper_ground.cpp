@@ -26,8 +26,8 @@ struct PaperGround::Impl {
     Se3 T_old_cam;  ///< [m] by metres_per_vo
   };
 
-  Impl(const GroundConfig& ground, const PaperConfig& paper, const CameraModel& camera,
-       const PaperModel& model)
+  Impl(const GroundConfig& ground, const PaperConfig& paper, const DetectionsConfig& detections,
+       const CameraModel& camera, const PaperModel& model)
       : config(paper),
         variances{model, ground.covariance == "fixed"},
         height_m(camera_height_of(ground, camera).height_m),
@@ -37,6 +37,7 @@ struct PaperGround::Impl {
         dense_cue(camera, box, paper.rho),
         matcher(box, ImageKeeper::kCapacity),
         points_cue(camera, normal_calibrated, paper.mu),
+        objects_cue(detections, camera, paper.pitch_rad),
         filter({paper.normal_noise_rad, paper.height_noise_m}),
         ego(ground.ego) {}
 
@@ -63,6 +64,7 @@ struct PaperGround::Impl {
   PaperDenseCue dense_cue;
   SiftMatcher matcher;
   PaperPointsCue points_cue;
+  PaperObjectsCue objects_cue;
   PlaneKalman filter;
   EgoMotion ego;
   std::int32_t scale_epoch = 0;
@@ -73,8 +75,9 @@ struct PaperGround::Impl {
 };
 
 PaperGround::PaperGround(const GroundConfig& config, const PaperConfig& paper,
-                         const CameraModel& camera, const PaperModel& model)
-    : impl_(std::make_unique<Impl>(config, paper, camera, model)) {}
+                         const DetectionsConfig& detections, const CameraModel& camera,
+                         const PaperModel& model)
+    : impl_(std::make_unique<Impl>(config, paper, detections, camera, model)) {}
 
 PaperGround::~PaperGround() = default;
 
@@ -213,7 +216,10 @@ void PaperGround::Impl::search_start(const VoOutput& vo, std::size_t place) {
 void PaperGround::Impl::fuse(const GroundInput& input, PaperFrame* frame) {
   if (!started) return;
   CueFusion fused;
-  out.plane.cues[kCueObjects] = add_objects(input.objects, &fused);
+  if (input.due.frame != nullptr && uses("objects")) {
+    out.plane.cues[kCueObjects] = add_objects(objects_cue.measure(*input.due.frame, height_m),
+                                              input.due.R_newest_due, variances, &fused);
+  }
   const CueReport& dense = out.plane.cues[kCueDense];
   add_report(dense, frame->metres_per_vo, &fused);
   if (dense.status != CueStatus::kUsed && frame->measurable) {

@@ -17,6 +17,7 @@
 
 #include <memory>
 
+#include "modules/detections/detections_config.hpp"
 #include "modules/ground/ground.hpp"
 #include "modules/ground_paper/paper_config.hpp"
 #include "modules/ground_paper/paper_model.hpp"
@@ -26,7 +27,8 @@ namespace plumb {
 class PaperGround final : public GroundAlgorithm {
  public:
   /// @pre configs inside the ranges of their visit(); camera.width_px, height_px >= 64
-  PaperGround(const GroundConfig& config, const PaperConfig& paper, const CameraModel& camera,
+  PaperGround(const GroundConfig& config, const PaperConfig& paper,
+              const DetectionsConfig& detections, const CameraModel& camera,
               const PaperModel& model = built_in_paper_model());
   ~PaperGround() override;
 

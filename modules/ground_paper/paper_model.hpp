@@ -15,6 +15,7 @@ struct PaperModel {
   LinearVariance dense_n3;
   LinearVariance dense_h;   ///< [m^2]
   LinearVariance points_h;  ///< [m^2]
+  LinearVariance objects_n3;
 
   /// Visits the numbers under the names of the model file's sections.
   template <typename Model, typename Visit>
@@ -23,6 +24,7 @@ struct PaperModel {
     LinearVariance::visit("paper_dense_n3", m.dense_n3, field);
     LinearVariance::visit("paper_dense_h", m.dense_h, field);
     LinearVariance::visit("paper_points_h", m.points_h, field);
+    LinearVariance::visit("paper_objects_n3", m.objects_n3, field);
   }
 };
 

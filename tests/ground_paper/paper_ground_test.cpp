@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <limits>
 
 #include "modules/chain/ground_algorithm.hpp"
 #include "modules/chain/plumb_config.hpp"
 #include "platform/config.hpp"
 #include "tests/ground/road_scene.hpp"
+#include "tests/ground_paper/car_boxes.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace plumb {
@@ -49,13 +49,15 @@ PlumbConfig paper_config(const char* cues = "all", const char* covariance = "lea
 
 struct Rehearsal {
   explicit Rehearsal(const PlumbConfig& config)
-      : ground(config.ground, config.ground_paper, footage().camera) {}
+      : ground(config.ground, config.ground_paper, config.detections, footage().camera) {}
 
-  const GroundOutput& step(int k, std::span<const ObjectsMeasurement> objects = {}) {
+  const GroundOutput& step(int k, const DetectionFrame* boxes = nullptr) {
     test::script_vo(footage().poses, k, script, &vo);
     vo.scale_epoch = epoch;
     vo.scale_carry_std = carry_std;
-    GroundInput input{&vo, {}, objects};
+    GroundInput input;
+    input.vo = &vo;
+    input.due.frame = boxes;
     if (with_images) input.image = footage().images[static_cast<std::size_t>(k)].view();
     return ground.update(input, probe);
   }
@@ -125,18 +127,18 @@ TEST(PaperGround, FixedCovariancesDoNotFollowTheConfidence) {
 TEST(PaperGround, TakesObjectsIntoTheSameFusion) {
   Rehearsal without(paper_config());
   Rehearsal with(paper_config());
-  const double bad = std::numeric_limits<double>::quiet_NaN();
-  const std::array<ObjectsMeasurement, 3> objects{{{0.03, 1e-7}, {0.03, 2e-7}, {bad, 1e-5}}};
+  const DetectionFrame boxes = test::cars_at_pitch(footage().camera, 0.03, {12.0, 25.0});
   GroundOutput a, b;
   for (int k = 0; k < 10; ++k) {
     a = without.step(k);
-    b = with.step(k, objects);
+    b = with.step(k, &boxes);
   }
   EXPECT_EQ(a.plane.cues[kCueObjects].status, CueStatus::kAbsent);
   EXPECT_EQ(b.plane.cues[kCueObjects].status, CueStatus::kUsed);
-  EXPECT_DOUBLE_EQ(b.plane.cues[kCueObjects].n3, 0.03);
+  EXPECT_NEAR(b.plane.cues[kCueObjects].n3, std::sin(0.03), 1e-6);
+  // Two objects of the mean variance, each an observation of its own.
+  EXPECT_DOUBLE_EQ(b.plane.cues[kCueObjects].n3_var, 0.5 * built_in_paper_model().objects_n3.mean);
   EXPECT_LT(std::abs(b.plane.normal_cam.z() - 0.03), std::abs(a.plane.normal_cam.z() - 0.03));
-  EXPECT_GT(b.plane.normal_cam.z(), 0.02);
 }
 
 TEST(PaperGround, HoldsTheScaleWithoutImages) {

@@ -24,6 +24,25 @@ render() {
   done
 }
 
+# add_candidates DRIVE: boxes as from before suppression around the drive's labels, whose scores fall off as a Gaussian.
+add_candidates() {
+  awk '{ s = ($10 - $8) / 40
+    for (k = 0; k < 16; ++k) {
+      down = 2 * sin(1.7 * k); taller = 3 * sin(2.9 * k + 1)
+      printf "%d %s %.2f %.2f %.2f %.2f %.4f\n", $1, $3, $7, $8 + s * (down - taller), $9, $10 + s * down,
+             0.9 * exp(-0.1 * (down * down + taller * taller))
+    } }' "$1/label_02.txt" > "$1/candidates.txt"
+}
+
+# add_road_with_a_map DRIVE FOLDER: the drive's images as a plain folder with camera and map, like a sequence of The Hague.
+add_road_with_a_map() {
+  mkdir -p "$2"
+  cp -r "$1/image_0" "$2/images"
+  awk '$1 == "P0:" { printf "[camera]\nfx_px = %s\nfy_px = %s\ncx_px = %s\ncy_px = %s\ncamera_height_m = 1.65\n", $2, $7, $4, $8 }' \
+    "$1/calib.txt" > "$2/camera.toml"
+  echo 'length_m = 30.0' > "$2/map.toml"
+}
+
 # same_results A B: every result and the report have the same bytes.
 same_results() {
   local file

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "platform/bounded_decode.hpp"
 #include "platform/log_file.hpp"
+#include "plumb/detections_t.hpp"
 #include "plumb_paths.hpp"
 #include "tests/support/expect_throw.hpp"
 #include "tests/support/kitti_data.hpp"
@@ -43,6 +45,32 @@ TEST(Kitti2LcmProgram, ExitsWithTwoAndOneSentenceOnBadInput) {
   for (const auto& [arguments, expected] : cases) {
     test::expect_refused(folder, "plumb-kitti2lcm", arguments, expected);
   }
+}
+
+TEST(Kitti2LcmProgram, GivesBoxesTheirCandidates) {
+  const test::TempFolder folder;
+  const std::string seq = test::write_odometry(folder, 3).string();
+  const std::string boxes =
+      folder.write("b.txt", "1 4 Car -1 -1 -10 10 10 40 30 -1 -1 -1 -1 -1 -1 -1\n").string();
+  const std::string candidates =
+      folder.write("c.txt", "1 Car 11 10 41 30 0.75\n1 Car 60 10 80 30 0.9\n").string();
+  const std::string out = " --candidates " + candidates + " --out " + (folder / "o.lcm").string();
+  test::expect_refused(folder, "plumb-kitti2lcm", seq + out, "--candidates belong to boxes");
+  const auto result = run_program(folder, "plumb-kitti2lcm", seq + out + " --detections " + boxes);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  LogReader reader((folder / "o.lcm").string());
+  LogEvent event;
+  int num_candidates = 0;
+  while (reader.next(&event)) {
+    detections_t message;
+    if (event.channel != "DETECTIONS" || !decode_bounded(event.data, &message)) continue;
+    for (const detection_t& detection : message.detections) {
+      num_candidates += detection.num_candidates;
+      EXPECT_FLOAT_EQ(detection.candidate_scores[0], 0.75F);
+      EXPECT_FLOAT_EQ(detection.candidates_px[0][0], 11.0F);
+    }
+  }
+  EXPECT_EQ(num_candidates, 1);
 }
 
 TEST(Kitti2LcmProgram, AFullDiskLeavesASoundLogAndOneSentence) {

@@ -1,12 +1,20 @@
 /// Runs plumb-train as a user would.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
+#include "core/channels.hpp"
 #include "modules/chain/model_file_source.hpp"
+#include "modules/detections/detections_wire.hpp"
+#include "platform/bounded_decode.hpp"
+#include "platform/log_file.hpp"
+#include "plumb_paths.hpp"
 #include "tests/support/kitti_data.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/train/drawn.hpp"
+#include "tools/learn/train/box_samples.hpp"
 
 namespace plumb {
 namespace {
@@ -62,6 +70,98 @@ TEST_F(TrainProgram, SaysWhatIsWrongWithItsInput) {
     EXPECT_NE(result.err.find(one.says), std::string::npos) << one.arguments << ": " << result.err;
   }
   EXPECT_FALSE(std::filesystem::exists(path("m.toml")));
+}
+
+/// The demo drive's first images, with boxes whose candidates' scores fall off around them.
+void write_drive_with_candidates(const std::string& path, int num_images) {
+  LogReader reader(PLUMB_SOURCE_DIR "/tools/run/demo_drive/drive.lcm");
+  LogWriter writer(path);
+  LogEvent event;
+  std::vector<std::uint8_t> bytes;
+  for (int images = 0; images < num_images && reader.next(&event);) {
+    images += event.channel == kCamera.name ? 1 : 0;
+    detections_t message;
+    if (event.channel != kDetections.name || !decode_bounded(event.data, &message)) {
+      writer.write(event.log_us, event.channel, event.data);
+      continue;
+    }
+    DetectionFrame frame;
+    ASSERT_EQ(from_wire(message, &frame), nullptr);
+    for (Detection& detection : frame.detections) {
+      for (int k = 0; k < 16; ++k) {
+        Candidate candidate{detection.box, 0.0};
+        const double down_px = 2.0 * std::sin(1.7 * k), taller_px = 3.0 * std::cos(2.9 * k);
+        candidate.box.top_px += down_px - taller_px;
+        candidate.box.bottom_px += down_px;
+        candidate.score = 0.9 * std::exp(-0.1 * (down_px * down_px + taller_px * taller_px));
+        (void)detection.candidates.push_back(candidate);
+      }
+    }
+    to_wire(frame, &message);
+    bytes.resize(static_cast<std::size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    writer.write(event.log_us, event.channel, bytes);
+  }
+  writer.close();
+}
+
+TEST_F(TrainProgram, ShowsTheObjectsAndOneImageOfThePublishedMethod) {
+  write_drive_with_candidates(path("d.lcm"), 24);
+  const auto boxes = run("boxes " + path("d.lcm") + " --out " + path("boxes.csv"));
+  ASSERT_EQ(boxes.exit_code, 0) << boxes.err;
+  const std::vector<BoxSample> samples = read_box_samples(path("boxes.csv"));
+  ASSERT_GE(samples.size(), 20U);
+  for (const BoxSample& sample : samples) {
+    EXPECT_GT(sample.confidence_px2, 0.0);
+    EXPECT_LT(std::abs(sample.error_n3), 0.1);
+    EXPECT_GT(sample.distance_m, 3.0);
+  }
+  std::ofstream(path("paper.toml")) << "[ground]\nmode = \"paper\"\n";
+  const std::string arguments = "example " + path("d.lcm") + " --json " + path("e.json");
+  EXPECT_NE(run(arguments).err.find("ground.mode is not"), std::string::npos);
+  const auto example = run(arguments + " --frame 8 --config " + path("paper.toml"));
+  ASSERT_EQ(example.exit_code, 0) << example.err;
+  const auto json = nlohmann::json::parse(test::read_text(path("e.json")));
+  EXPECT_GE(json["seq"], 8);
+  ASSERT_EQ(json["slices"].size(), 3U);
+  for (const auto& slice : json["slices"]) {
+    ASSERT_EQ(slice["x"].size(), 50U);
+    // The plane that was found lies in the middle of the slice, and nothing is lower than it.
+    const double middle = 0.5 * (slice["cost"][24].get<double>() + slice["cost"][25].get<double>());
+    EXPECT_LT(middle, slice["cost"][0]);
+    EXPECT_LT(middle, slice["cost"][49]);
+  }
+  EXPECT_EQ(json["object"]["candidates"].size(), 16U);
+  EXPECT_GT(json["object"]["confidence_px2"], 0.0);
+}
+
+TEST_F(TrainProgram, FitsTheObjectsLineOfThePublishedMethodToFilesOfBoxes) {
+  DriveSamples drive = test::draw_drive("a", 100, 1, 0.01);
+  drive.algorithm = "paper";
+  write_samples(drive, path("a.csv"));
+  std::ofstream file(path("boxes.csv"));
+  file << "seq,objects_confidence,objects_error,distance_m\n0,,0.5,20\n";
+  for (int k = 0; k < 400; ++k) {
+    const double confidence = 1.0 + 0.01 * k;
+    file << k << "," << confidence << ","
+         << (k % 2 == 0 ? 1.0 : -1.0) * std::sqrt(1e-4 * confidence) << ",20\n";
+  }
+  file.close();
+  const std::string fit = "fit " + path("a.csv") + " --out " + path("m.toml");
+  const auto result = run(fit + " --boxes " + path("boxes.csv"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("objects n3"), std::string::npos) << result.out;
+  const LinearVariance line = load_models(path("m.toml")).paper.objects_n3;
+  EXPECT_NEAR(line.slope, 1e-4, 1e-6);
+  EXPECT_NEAR(line.of(2.0), 2e-4, 1e-5);
+  ASSERT_EQ(run(fit).exit_code, 0);
+  EXPECT_EQ(load_models(path("m.toml")).paper.objects_n3.mean,
+            built_in_paper_model().objects_n3.mean);
+  draw("b", 2);
+  EXPECT_NE(
+      run("fit " + path("b.csv") + " --out " + path("m.toml") + " --boxes " + path("boxes.csv"))
+          .err.find("not of the published method"),
+      std::string::npos);
 }
 
 TEST_F(TrainProgram, SamplesARealDriveOnceAndKeepsTheFile) {

@@ -41,10 +41,12 @@ const char* ObjectsQueue::take(const DetectionFrame& frame) {
 std::span<const ObjectsMeasurement> ObjectsQueue::update(const VoOutput& vo,
                                                          const CameraHeight& camera_height) {
   proceed_to(vo);
+  due_ = {};
   if (delay_ == 0 || num_places_ <= delay_) return {};
   const Place& place = places_[delay_];
   last_due_us_ = place.capture_us;
   const DetectionFrame* frame = find(place);
+  due_ = {frame, place.R_newest_place};
   if (frame == nullptr || !measure(place, *frame, camera_height.height_m)) return {};
   return {&measured_, 1};
 }

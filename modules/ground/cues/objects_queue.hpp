@@ -42,6 +42,8 @@ class ObjectsQueue {
   /// Proceeds to the image of `vo`, taken at `camera_height`. Returns the pitch from its objects,
   /// or nothing; valid until the next call.
   std::span<const ObjectsMeasurement> update(const VoOutput& vo, const CameraHeight& camera_height);
+  /// The detections that the last update() took, whether they gave a pitch or not.
+  [[nodiscard]] const DueDetections& due() const { return due_; }
   /// Frames that were dropped before their turn.
   [[nodiscard]] std::int64_t num_overflowed() const { return num_overflowed_; }
   /// Takes the plane that the ground estimator found in that image.
@@ -77,6 +79,7 @@ class ObjectsQueue {
   std::int64_t last_due_us_ = 0;
   std::int64_t num_overflowed_ = 0;
   ObjectsMeasurement measured_;
+  DueDetections due_;
 };
 
 }  // namespace plumb

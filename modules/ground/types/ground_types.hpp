@@ -83,12 +83,22 @@ struct CueReport {
 /// One entry for each cue of kCueTable.
 using CueReports = std::array<CueReport, kNumCues>;
 
+struct DetectionFrame;
+
+/// Boxes whose turn it is, for an algorithm that reads them by itself.
+struct DueDetections {
+  const DetectionFrame* frame = nullptr;  ///< null: none
+  /// Turns from the camera in their image to the camera in the newest one.
+  Eigen::Matrix3d R_newest_due = Eigen::Matrix3d::Identity();
+};
+
 struct GroundInput {
   const VoOutput* vo = nullptr;  ///< never null
   ImageView image;               ///< image of vo->seq; empty when it did not arrive
   std::span<const ObjectsMeasurement> objects = {};  ///< of the same image (objects_queue.hpp)
   CameraHeight camera_height = {};                   ///< height_m 0: as configured or calibrated
   bool is_height_correction = false;  ///< a new height is better known; false: the body has moved
+  DueDetections due = {};             ///< what `objects` was measured from
 };
 
 /// The plane of the road ahead (`GroundConfig::road_near_m` to `road_far_m`).

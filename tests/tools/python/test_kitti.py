@@ -1,6 +1,8 @@
-"""Tests tools/kitti/plumb-kitti: what it finds, what it names as missing, how it stages, plans and shows."""
+"""Tests tools/kitti/plumb-kitti: what it finds, what it names as missing, how it stages and plans."""
 import dataclasses
 import json
+import math
+import os
 import sys
 import types
 import unittest
@@ -8,8 +10,7 @@ import unittest
 import support
 
 sys.path.insert(0, str(support.ROOT / 'tools/kitti'))
-from plumb_kitti import blocks, discover, driver, missing, page, plan, sections, staging
-from plumb_kitti.results import Results
+from plumb_kitti import discover, driver, jobs, keys, missing, plan, staging, tracklets, training_jobs
 from plumb_tools.command_line import UsageError
 
 PNG = b'\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR' + (1242).to_bytes(4, 'big') + (375).to_bytes(4, 'big')
@@ -117,9 +118,116 @@ class Staging(KittiTree):
         self.assertTrue((self.folder / 'staged/label_02.txt').exists())
 
 
+    def tracklet_drive(self):
+        """The raw drive with a car 20 m ahead of the scanner and 2 m to the left, driving away; the third image has it no more."""
+        raw = 'kitti/raw/2011_09_26/2011_09_26_drive_0009_sync'
+        self.write('kitti/raw/2011_09_26/calib_velo_to_cam.txt', 'calib_time: x\nR: 0 -1 0 0 0 -1 1 0 0\nT: 0.1 -0.2 -0.3\n')
+        self.write('kitti/raw/2011_09_26/calib_cam_to_cam.txt',
+                   f'P_rect_00: {P}\nP_rect_02: {P}\nS_rect_02: 1242 375\nR_rect_00: 1 0 0 0 1 0 0 0 1\n')
+        pose = '<item><tx>{}</tx><ty>2</ty><tz>-1.75</tz><rx>0</rx><ry>0</ry><rz>0</rz><occlusion>1</occlusion>' \
+               '<truncation>{}</truncation></item>'
+        poses = pose.format(20, 0) + pose.format(21, 0) + pose.format(-5, 99)
+        self.write(f'{raw}/tracklet_labels.xml', '<boost_serialization><tracklets><count>1</count><item><objectType>Car'
+                   '</objectType><h>1.5</h><w>1.6</w><l>4</l><first_frame>1</first_frame><poses><count>3</count>' + poses +
+                   '</poses></item></tracklets></boost_serialization>')
+        return dataclasses.asdict({drive.name: drive for drive in self.find()[0]}['2011_09_26_drive_0009'])
+
+    def test_tracklets_become_labels(self):
+        staging.stage(self.tracklet_drive(), self.folder / 'staged', with_labels=True)
+        rows = [line.split() for line in (self.folder / 'staged/label_02.txt').read_text().splitlines()]
+        self.assertEqual([row[:5] for row in rows], [['1', '0', 'Car', '0', '1'], ['2', '0', 'Car', '0', '1']])
+        alpha, left, top, right, bottom, *rest = (float(word) for word in rows[0][5:])
+        # x right is -y left, y down is -z up, z ahead; the box spans the nearest face and the farthest one.
+        for value, wanted in zip(rest, (1.5, 1.6, 4, -1.9, 1.55, 19.7, -math.pi / 2)):
+            self.assertAlmostEqual(value, wanted, places=5)
+        self.assertAlmostEqual(left, 600 + 700 * (-1.9 - 0.8) / 17.7, places=3)
+        self.assertAlmostEqual(right, 600 + 700 * (-1.9 + 0.8) / 21.7, places=3)
+        self.assertAlmostEqual(bottom, 180 + 700 * 1.55 / 17.7, places=3)
+        self.assertAlmostEqual(top, 180 + 700 * 0.05 / 21.7, places=3)
+        self.assertAlmostEqual(alpha, -math.pi / 2 + math.atan2(1.9, 19.7), places=5)
+
+    def test_refuses_what_are_no_tracklets(self):
+        with self.assertRaisesRegex(UsageError, 'no element found'):
+            tracklets.read(self.write('a.xml', ''))
+        with self.assertRaisesRegex(UsageError, 'no tracklets/item in it'):
+            tracklets.read(self.write('b.xml', '<boost_serialization/>'))
+        with self.assertRaisesRegex(UsageError, 'a tracklet has no number w'):
+            tracklets.read(self.write('c.xml', '<b><tracklets><item><h>1</h><w>x</w></item></tracklets></b>'))
+
+    def test_a_map_states_how_the_road_ends(self):
+        road = staging.read_map(self.write('map.toml', 'length_m = 100.0\nend_distance_m = 60\n'))
+        self.assertEqual(road, {'length_m': 100.0, 'end_distance_m': 60, 'rate_hz': 10.0})
+        path = [[1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, z] for x, z in ((0, 0), (0, 40), (30, 40))]
+        end = jobs.end_point(path, road)
+        self.assertEqual((end['path_m'], end['end_distance_m'], end['error_percent']), (70.0, 50.0, 10.0))
+        for text, sentence in (('', 'length_m is missing'), ('length_m = -1', r'length_m = -1 is not a number in \[0.1'),
+                               ('lenght_m = 1', 'unknown key lenght_m; did you mean length_m')):
+            with self.assertRaisesRegex(UsageError, sentence):
+                staging.read_map(self.write('map.toml', text))
+
+    def test_a_folder_with_a_map_is_a_drive(self):
+        self.images('hague/one/images')
+        self.write('hague/one/map.toml', 'length_m = 609.34\n')
+        drive, = discover.find(self.folder / 'hague')[0]
+        self.assertEqual((drive.kind, drive.num_images, drive.lacks), ('folder', 2, ['camera.toml (docs/add_a_camera.md)']))
+        self.write('hague/one/camera.toml', '[camera]\nfx_px = 500.0\ncamera_height_m = 1.4\n')
+        drive, = discover.find(self.folder / 'hague')[0]
+        facts, _ = plan.camera_facts(dataclasses.asdict(drive))
+        self.assertEqual((facts['fx_px'], facts['height_m'], drive.lacks), (500.0, 1.4, []))
+
+
+class Keys(KittiTree):
+    """What makes a job run again: nothing but a change of what it depends on."""
+
+    def setUp(self):
+        super().setUp()
+        self.options = types.SimpleNamespace(trials=1, modes=['default'], bin=self.folder / 'bin', detector=None)
+        self.write('bin/plumb-replay', 'one')
+
+    def written(self):
+        """The keys that a call of plumb-kitti rewrites."""
+        made = plan.make([self.plain('04')], [], self.options, {}, {})
+        folder = self.folder / 'out/keys'
+        before = {path: path.stat().st_mtime_ns for path in folder.rglob('*') if path.is_file()}
+        keys.write(made, ['plumb-replay'], self.folder / 'out')
+        return {str(path.relative_to(folder)) for path in folder.rglob('*') if path.is_file()
+                and before.get(path) != path.stat().st_mtime_ns}
+
+    def test_nothing_changed_rewrites_nothing(self):
+        self.assertLessEqual({'steps', 'program/plumb-replay', 'mode/default', 'drive/04', 'trial/04/1'}, self.written())
+        self.assertEqual(self.written(), set())
+
+    def test_a_new_program_a_new_setting_or_new_data_is_seen(self):
+        self.written()
+        self.write('bin/plumb-replay', 'two')
+        self.assertEqual(self.written(), {'program/plumb-replay'})
+        self.addCleanup(plan.MODES.update, default=plan.MODES['default'])
+        plan.MODES['default'] = '[ground]\n'
+        self.assertEqual(self.written(), {'mode/default'})
+        self.write('kitti/dataset/poses/04.txt', '1 0 0 0 0 1 0 0 0 0 1 1\n' * 2)
+        self.assertEqual(self.written(), {'drive/04'})
+        os.utime(self.folder / 'kitti/dataset/sequences/04/image_0/000000.png', (1, 4e9))
+        self.assertEqual(self.written(), {'drive/04'})
+
+
+class Fitting(support.FolderTest):
+    def test_test_sequences_take_no_part_in_the_fit_of_the_objects_line(self):
+        self.fake_program('plumb-train', f'echo "$@" > {self.folder}/called; touch {self.folder}/fit/fit.part.json')
+        drives = {f'tracking_{n:04d}': {'kind': 'tracking', 'number': f'{n:04d}'} for n in (8, 9)}
+        drives['04'] = {'kind': 'odometry', 'number': '04'}
+        self.write('plan.json', json.dumps({'bin': str(self.folder / 'bin'), 'drives': drives}))
+        for name in drives:
+            self.write(f'fit/boxes/{name}.csv', training_jobs.NO_BOXES + ('0,1,2,3\n' if name != '04' else ''))
+        training_jobs.fit(jobs.Job(self.folder))
+        called = (self.folder / 'called').read_text()
+        self.assertIn('boxes/tracking_0008.csv', called)
+        self.assertNotIn('tracking_0009', called)
+        self.assertNotIn('boxes/04.csv', called)
+
+
 class Plan(KittiTree):
     def make(self, trials):
-        options = types.SimpleNamespace(trials=trials, modes=['paper', 'default'], bin=self.folder)
+        options = types.SimpleNamespace(trials=trials, modes=['paper', 'default'], bin=self.folder, detector=None)
         usable = [self.plain(name) for name, drive in self.drives.items() if not drive.lacks]
         return plan.make(usable, [], options, {}, {})
 
@@ -158,89 +266,6 @@ class Failures(support.FolderTest):
         with driver.lock(self.folder):
             with self.assertRaisesRegex(UsageError, 'in use by another plumb-kitti'):
                 driver.lock(self.folder)
-
-
-class Page(support.FolderTest):
-    def html(self, blocks_, script='draw()'):
-        self.write('page/bundle.js', script)
-        data = {'title': 'T', 'headline': [], 'sections': [sections.section('a', 'A <b>', blocks_, 'p')]}
-        return page.html_of(data, self.folder / 'page')
-
-    def test_is_one_file_and_escapes(self):
-        chart = blocks.lines('c', 'x', 'y', [blocks.curve('</script>', [(0, 1), (1, float('nan'))])])
-        text = self.html([chart, blocks.table(['h'], [['<i>']])])
-        self.assertIn('A &lt;b&gt;', text)
-        self.assertIn('<td>&lt;i&gt;</td>', text)
-        self.assertEqual(text.count('</script>'), 2)
-        self.assertIn('[1.0,null]', text)
-        self.assertNotRegex(text, r'(src|href)="(https?:|/)')
-
-    def test_an_empty_section_says_that_its_data_is_missing(self):
-        self.assertIn('Data not here', self.html([blocks.note('why')]))
-        self.assertNotIn('Data not here', self.html([blocks.table(['h'], [['1']])]))
-
-    def test_without_npm_it_says_that_it_has_no_charts(self):
-        self.assertIn('npm was not here', self.html([blocks.bars('c', 'y', [('04', 'default', 1.5)])], script=''))
-        self.assertIn('<td>1.50</td>', self.html([blocks.bars('c', 'y', [('04', 'default', 1.5)])], script=''))
-
-    def test_curves_are_thinned_to_what_a_screen_shows(self):
-        curve = blocks.curve('default', [(k, k) for k in range(10001)])
-        self.assertLessEqual(len(curve['x']), blocks.MOST_POINTS + 1)
-        self.assertEqual((curve['x'][0], curve['x'][-1]), (0, 10000))
-
-
-class Sections(support.FolderTest):
-    """Two measured drives, as the jobs leave them."""
-
-    def setUp(self):
-        super().setUp()
-        drives = {name: {'name': name, 'kind': 'odometry', 'number': name, 'num_images': 50, 'poses': 'p', 'oxts': '',
-                         'planes': '', 'velodyne': '', 'rig': 'r', 'camera_facts': {'fx_px': 1.0, 'height_m': 1.65}}
-                  for name in ('04', '05')}
-        self.plan = {'drives': drives, 'modes': ['default', 'paper', 'paper-fixed'], 'boxes': {}, 'others': {}, 'planes': [],
-                     'trials': {'04': [{}, {}], '05': [{}, {}]}, 'missing': []}
-        for k, name in enumerate(drives):
-            for mode in self.plan['modes']:
-                for trial in range(2):
-                    self.write_run(name, mode, trial, t=1.0 + trial, num=1 + 2 * k)
-
-    def write_run(self, name, mode, trial, t, num):
-        errors = {'num_segments': num, 't_percent': t + num, 'r_deg_m': 0.01, 'by_speed': [],
-                  'by_length': [{'length_m': 10.0, 'num_segments': num, 't_percent': t, 'r_deg_m': 0.01}]}
-        height = {kind: {'num_frames': 10 * num, 'mean_percent': float(num), 'bias_percent': 0.0,
-                         'within_7_percent_ratio': 1.0} for kind in ('fused', 'dense', 'points', 'constant')}
-        folder = f'runs/{name}/{mode}/{trial}'
-        self.write(f'{folder}/result.json', json.dumps({
-            'num_frames': 50, 'ego_status': {'ok': 50}, 'path_m': 60.0, 'short': errors,
-            'long': {**errors, 'num_segments': 0, 'by_length': []}, 'height': height}))
-        self.write(f'{folder}/height.json', json.dumps({k: {'frames': [1, 2], 'errors_percent': [1.0, -1.0]} for k in height}))
-        for file in ('truth.txt', 'poses.txt'):
-            self.write(f'{folder}/{file}', '1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n')
-
-    def cells(self, section):
-        return [row for block in section['blocks'] if block['type'] == 'table' for row in block['rows']]
-
-    def test_table_1_has_mean_and_variance_over_trials_and_pools_by_segments(self):
-        rows = self.cells(sections.table_1(Results(self.folder, self.plan)))
-        self.assertIn(['04', 'default', '10, 20, 50 m', '2', '2.500', '0.5', '0.01000', '0'], rows)
-        self.assertIn(['all, pooled', 'default', '10, 20, 50 m', 'undisturbed', '3.500', '', '0.01000', ''], rows)
-
-    def test_figure_10_pools_by_images_and_gives_the_constant_no_credit_without_planes(self):
-        rows = {row[0]: row for row in self.cells(sections.figure_10(Results(self.folder, self.plan)))}
-        self.assertEqual(rows['adaptive'], ['adaptive', '2.50', '100.0', '-', '-', '3.97'])
-        self.assertEqual(rows['constant'][1:5], ['-', '-', '-', '-'])
-
-    def test_every_figure_is_there(self):
-        results = Results(self.folder, self.plan)
-        for make in (sections.figure_1, sections.figure_9, sections.figure_10, sections.figure_11):
-            self.assertTrue(any(b['type'] in ('lines', 'bars') for b in make(results)['blocks']), make.__name__)
-
-    def test_a_comparison_of_few_images_tells_nothing(self):
-        entry = {'num_blocks': 3, 'difference': {'mean': -1.0, 'low': -2.0, 'high': -0.5}}
-        self.assertEqual(sections.verdict(entry), 'too few images to tell')
-        self.assertEqual(sections.verdict({**entry, 'num_blocks': 30}), 'the first is better')
-        entry['difference']['high'] = 0.5
-        self.assertEqual(sections.verdict({**entry, 'num_blocks': 30}), 'not told apart')
 
 
 if __name__ == '__main__':

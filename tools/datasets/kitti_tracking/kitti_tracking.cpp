@@ -18,18 +18,9 @@ constexpr std::size_t kLeastColumns = 10;
 constexpr std::size_t kColumns3d = 17;
 constexpr std::int64_t kFramePeriod_us = 100'000;
 constexpr double kScoreOfLabels = 1.0;
-
-ObjectClass class_of(std::string_view name) {
-  if (name == "Car") return ObjectClass::kCar;
-  if (name == "Van") return ObjectClass::kVan;
-  if (name == "Truck") return ObjectClass::kTruck;
-  if (name == "Bus") return ObjectClass::kBus;
-  if (name == "Pedestrian" || name == "Person" || name == "Person_sitting") {
-    return ObjectClass::kPedestrian;
-  }
-  if (name == "Cyclist") return ObjectClass::kCyclist;
-  return ObjectClass::kUnknown;
-}
+// In the order of ObjectClass.
+constexpr const char* kKittiNames[kNumObjectClasses] = {"Misc", "Car",        "Van",    "Truck",
+                                                        "Bus",  "Pedestrian", "Cyclist"};
 
 double number(const std::vector<std::string_view>& words, std::size_t column,
               const std::string& at) {
@@ -52,7 +43,7 @@ TrackingRow parse_row(const std::vector<std::string_view>& words, const std::str
   const auto value = [&](std::size_t column) { return number(words, column, at); };
   row.frame = static_cast<int>(value(0));
   row.detection.track_id = static_cast<std::int32_t>(value(1));
-  row.detection.object_class = class_of(words[2]);
+  row.detection.object_class = object_class_of(words[2]);
   row.detection.truncated_ratio = truncated_ratio(value(3));
   row.detection.occluded = occlusion_of(value(4));
   row.detection.box = {value(6), value(7), value(8), value(9)};
@@ -66,6 +57,18 @@ TrackingRow parse_row(const std::vector<std::string_view>& words, const std::str
 }
 
 }  // namespace
+
+ObjectClass object_class_of(std::string_view name) {
+  if (name == "Person" || name == "Person_sitting") return ObjectClass::kPedestrian;
+  for (std::size_t i = 1; i < kNumObjectClasses; ++i) {
+    if (name == kKittiNames[i]) return static_cast<ObjectClass>(i);
+  }
+  return ObjectClass::kUnknown;
+}
+
+const char* kitti_name_of(ObjectClass object_class) {
+  return kKittiNames[static_cast<std::size_t>(object_class)];
+}
 
 std::vector<TrackingRow> read_tracking(const std::filesystem::path& path) {
   std::vector<TrackingRow> rows;

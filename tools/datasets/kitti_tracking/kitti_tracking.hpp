@@ -13,12 +13,18 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "core/camera_model.hpp"
 #include "modules/detections/detection.hpp"
 
 namespace plumb {
+
+/// The class of a type's name; kUnknown for a name without one.
+[[nodiscard]] ObjectClass object_class_of(std::string_view name);
+/// The name of a class in KITTI's labels; "Misc" for kUnknown.
+[[nodiscard]] const char* kitti_name_of(ObjectClass object_class);
 
 struct TrackingRow {
   int frame = 0;

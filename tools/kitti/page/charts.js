@@ -6,7 +6,7 @@ const COLOURS = {
   truth: 'var(--truth)', constant: 'var(--constant)', default: 'var(--c1)', adaptive: 'var(--c2)',
   'paper, adaptive': 'var(--c2)', fixed: 'var(--c3)', 'paper, fixed': 'var(--c3)', 'dense alone': 'var(--c4)',
   'paper, dense alone': 'var(--c4)', 'points alone': 'var(--c5)', 'paper, points alone': 'var(--c5)',
-  calibrated: 'var(--constant)', bins: 'var(--c4)', line: 'var(--c1)',
+  calibrated: 'var(--constant)', cost: 'var(--c4)', candidates: 'var(--c4)', bins: 'var(--c4)', line: 'var(--c1)',
 };
 const SPARE = ['var(--c6)', 'var(--c7)', 'var(--c8)'];
 
@@ -69,6 +69,21 @@ function drawBars(chart, width) {
   });
 }
 
+// How full a cell is shows as the strength of one colour, which works on light and dark.
+function drawHeat(chart, width) {
+  const most = Math.max(...chart.rows.map((row) => row.n));
+  const box = {x1: 'x1', x2: 'x2', y1: 'y1', y2: 'y2'};
+  return Plot.plot({
+    width, height: 300, marginLeft: 60, x: {label: chart.x}, y: {label: chart.y},
+    marks: [
+      Plot.rect(chart.rows, {...box, fill: 'var(--c1)', fillOpacity: (row) => 0.08 + 0.92 * row.n / most, inset: 0}),
+      Plot.tip(chart.rows, Plot.pointer({...box, channels: {[chart.what]: 'n'}, maxRadius: 80})),
+    ],
+  });
+}
+
+const DRAW = {lines: drawLines, bars: drawBars, heat: drawHeat};
+
 const charts = JSON.parse(document.getElementById('charts').textContent);
 
 function draw(place) {
@@ -76,7 +91,7 @@ function draw(place) {
   const chart = charts[Number(place.dataset.chart)];
   // Maps stand side by side and are as wide as their roads.
   const width = Math.max(320, (chart.equal ? document.querySelector('main') : place).clientWidth);
-  place.append(chart.type === 'bars' ? drawBars(chart, width) : drawLines(chart, width));
+  place.append(DRAW[chart.type](chart, width));
 }
 
 const places = [...document.querySelectorAll('[data-chart]')];

@@ -48,6 +48,13 @@ def bars(caption, y, rows):
     return {'type': 'bars', 'caption': caption, 'y': y, 'rows': rows} if rows else None
 
 
+def heat(caption, x, y, what, cells):
+    """A histogram over two quantities, cells (x from, x to, y from, y to, number of `what`), or None without any."""
+    keys = ('x1', 'x2', 'y1', 'y2')
+    rows = [{**{key: finite(value) for key, value in zip(keys, cell)}, 'n': cell[4]} for cell in cells]
+    return {'type': 'heat', 'caption': caption, 'x': x, 'y': y, 'what': what, 'rows': rows} if rows else None
+
+
 def section(key, title, blocks, paper=''):
     """A section; one without any block says that its data is missing."""
     return {'id': key, 'title': title, 'paper': paper, 'blocks': [block for block in blocks if block]}

@@ -1,4 +1,4 @@
-"""Finds KITTI drives below a folder: the odometry set, the tracking set and raw drives."""
+"""Finds drives below a folder: KITTI's odometry set, tracking set and raw drives, and plain folders with a map."""
 import dataclasses
 import os
 import pathlib
@@ -7,7 +7,8 @@ import re
 from plumb_tools.command_line import UsageError
 
 MAX_DEPTH = 6
-SKIPPED = {'velodyne', 'velodyne_points', 'oxts', 'det2d', 'label_02', 'calib'}
+SKIPPED = {'velodyne', 'velodyne_points', 'oxts', 'det2d', 'label_02', 'calib', 'candidates'}
+IMAGE_ENDS = ('.png', '.jpg', '.jpeg', '.pgm', '.bmp')
 RAW_CALIBRATION = ('calib_cam_to_cam.txt', 'calib_velo_to_cam.txt', 'calib_imu_to_velo.txt')
 
 
@@ -15,7 +16,7 @@ RAW_CALIBRATION = ('calib_cam_to_cam.txt', 'calib_velo_to_cam.txt', 'calib_imu_t
 class Drive:
     """One drive. Paths are texts, '' where there is no such file."""
     name: str
-    kind: str            # odometry, tracking or raw
+    kind: str            # odometry, tracking, raw or folder
     folder: str          # of the sequence; of training or testing for the tracking set
     number: str          # '04', '0000', '2011_09_26_drive_0009_sync'
     camera: int          # 0 left grey .. 3 right colour
@@ -30,6 +31,8 @@ class Drive:
     planes: str = ''
     labels: str = ''
     tracklets: str = ''
+    candidates: str = ''  # a detector's boxes before suppression
+    map: str = ''         # map.toml: the length of the road, and how far its end is from its beginning
     boxes: dict = dataclasses.field(default_factory=dict)
     lacks: list = dataclasses.field(default_factory=list)
 
@@ -44,7 +47,7 @@ class Drive:
 
 
 def count_images(folder):
-    return sum(entry.name.endswith('.png') for entry in os.scandir(folder))
+    return sum(entry.name.endswith(IMAGE_ENDS) for entry in os.scandir(folder))
 
 
 def first_of(*paths):
@@ -73,6 +76,10 @@ def own_boxes(folder, name):
     return found
 
 
+def candidates_of(folder, name):
+    return first_of(folder / 'candidates' / f'{name}.txt', folder / 'candidates.txt')
+
+
 def odometry_drive(folder, root):
     """A folder with image_0 (or _1 .. _3) in it, as the odometry set has them."""
     camera, images = image_folder(folder, 'image_%d')
@@ -83,7 +90,8 @@ def odometry_drive(folder, root):
                   times=first_of(folder / 'times.txt', *(top / 'times' / f'{name}.txt' for top in above)),
                   poses=first_of(folder / 'poses.txt', *(top / 'poses' / f'{name}.txt' for top in above)),
                   velodyne=first_of(folder / 'velodyne'), road_labels=first_of(folder / 'labels'),
-                  planes=planes_of(folder), labels=first_of(folder / 'label_02.txt'), boxes=own_boxes(folder, name))
+                  planes=planes_of(folder), labels=first_of(folder / 'label_02.txt'), boxes=own_boxes(folder, name),
+                  candidates=candidates_of(folder, name))
     for what, zip_name in (('calib', 'data_odometry_calib.zip'), ('times', 'data_odometry_calib.zip')):
         if not getattr(drive, what):
             drive.lacks.append(f'{what} ({zip_name})')
@@ -101,7 +109,7 @@ def raw_drive(folder):
                   poses=first_of(folder / 'poses.txt'), oxts=first_of(folder / 'oxts' / 'data'),
                   velodyne=first_of(folder / 'velodyne_points' / 'data'), planes=planes_of(folder),
                   labels=first_of(folder / 'label_02.txt'), boxes=own_boxes(folder, number),
-                  tracklets=first_of(folder / 'tracklet_labels.xml'))
+                  candidates=candidates_of(folder, number), tracklets=first_of(folder / 'tracklet_labels.xml'))
     date = '_'.join(number.split('_')[:3])
     if not drive.calib:
         drive.lacks.append(f'calib_cam_to_cam.txt ({date}_calib.zip)')
@@ -122,11 +130,24 @@ def tracking_drives(folder):
                       calib=first_of(folder / 'calib' / f'{number}.txt'),
                       oxts=first_of(folder / 'oxts' / f'{number}.txt'),
                       velodyne=first_of(folder / 'velodyne' / number),
-                      labels=first_of(folder / 'label_02' / f'{number}.txt'), boxes=own_boxes(folder, number))
+                      labels=first_of(folder / 'label_02' / f'{number}.txt'), boxes=own_boxes(folder, number),
+                      candidates=candidates_of(folder, number))
         if not drive.calib:
             drive.lacks.append('calib (data_tracking_calib.zip)')
         found.append(drive)
     return found
+
+
+def plain_drive(folder):
+    """A folder with images (in it, or in its folder images), map.toml and camera.toml, as The Hague's sequences would be."""
+    images = folder / 'images' if (folder / 'images').is_dir() else folder
+    drive = Drive(folder.name, 'folder', str(folder), folder.name, 0, str(images), count_images(images),
+                  calib=first_of(folder / 'camera.toml'), times=first_of(folder / 'times.txt'), map=str(folder / 'map.toml'))
+    if not drive.calib:
+        drive.lacks.append('camera.toml (docs/add_a_camera.md)')
+    if not drive.num_images:
+        drive.lacks.append('images (from the authors of the data set)')
+    return drive
 
 
 def is_tracking(folder, names):
@@ -150,12 +171,16 @@ def find(root):
         elif image_folder(folder, 'image_%02d', 'data'):
             drives.append(raw_drive(folder))
             names.clear()
+        elif (folder / 'map.toml').exists():
+            drives.append(plain_drive(folder))
+            names.clear()
         names[:] = [name for name in names if name not in SKIPPED]
         if len(folder.relative_to(root).parts) >= MAX_DEPTH:
             names.clear()
     if not drives and not label_folders:
         raise UsageError(f'{root} holds no KITTI data: neither sequences/NN/image_0, nor training/image_02/NNNN or '
-                         'training/label_02, nor a raw drive with image_00/data')
+                         'training/label_02, nor a raw drive with image_00/data, nor a folder of images with '
+                         'map.toml')
     names = [drive.name for drive in drives]
     for name in names:
         if names.count(name) > 1:

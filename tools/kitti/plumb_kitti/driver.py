@@ -8,13 +8,13 @@ import shutil
 import subprocess
 import sys
 
-from plumb_kitti import discover, jobs, missing, page, plan, report
+from plumb_kitti import discover, jobs, keys, missing, page, plan, report
 from plumb_tools import command_line
 from plumb_tools.command_line import UsageError
 from plumb_tools.programs import OUT, Programs, add_bin_option
 
 SNAKEFILE = pathlib.Path(__file__).resolve().parents[1] / 'Snakefile'
-PROGRAMS = ('plumb-kitti2lcm', 'plumb-planes', 'plumb-trial', 'plumb-replay', 'plumb-eval', 'plumb-train')
+PROGRAMS = ('plumb-kitti2lcm', 'plumb-convert', 'plumb-planes', 'plumb-trial', 'plumb-replay', 'plumb-eval', 'plumb-train', 'plumb-boxes')
 STEPS = re.compile(r'^(\d+) of (\d+) steps')
 
 
@@ -38,6 +38,7 @@ def parse_options():
     parser.add_argument('--profile', type=command_line.folder)
     parser.add_argument('--boxes', type=named_folder, action='append', default=[])
     parser.add_argument('--others', type=named_folder, action='append', default=[])
+    parser.add_argument('--detector', type=command_line.file)
     parser.add_argument('--dry', action='store_true')
     add_bin_option(parser)
     return parser.parse_args()
@@ -157,6 +158,7 @@ def main():
         trackers = {str(k): trackers_of(folder, options.boxes) for k, folder in enumerate(label_folders)}
         made = plan.make(usable, [str(folder) for folder in label_folders], options, trackers, others)
         plan.write({**made, 'missing': rows}, out / 'plan.json')
+        keys.write(made, PROGRAMS, out)
         (out / 'report.json').unlink(missing_ok=True)  # so that results that were deleted are made again
         code = run_workflow(out, options, lock_handle)
         failed = failed_jobs(out) if code else {}

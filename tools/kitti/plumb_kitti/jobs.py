@@ -1,5 +1,6 @@
 """The jobs of the workflow. Each leaves its files below the folder of results, the last one whole."""
 import json
+import math
 import pathlib
 import shutil
 import statistics
@@ -7,9 +8,9 @@ import sys
 import zipfile
 
 from plumb_kitti import plan as plans
-from plumb_kitti import staging
+from plumb_kitti import staging, training_jobs
 from plumb_tools.command_line import UsageError
-from plumb_tools.drive_files import read_frames
+from plumb_tools.drive_files import positions, read_frames, read_poses
 from plumb_tools.programs import Programs
 
 LENGTHS = {'short': '10,20,50', 'long': 'new'}
@@ -77,9 +78,12 @@ def log(job, name):
             print(f'job: {name}: {error}', file=sys.stderr)
     (job.out / 'logs').mkdir(exist_ok=True)
     whole = job.out / 'logs' / f'{name}.lcm'
-    part = whole.with_suffix('.part.lcm')
-    job.programs.run('plumb-kitti2lcm', staged, '--out', part, '--camera', drive['camera'],
-                     log=job.out / 'logs' / f'{name}.txt')
+    part, said = whole.with_suffix('.part.lcm'), job.out / 'logs' / f'{name}.txt'
+    if drive['kind'] == 'folder':
+        rate = ['--times', staged / 'times.txt'] if drive['times'] else ['--rate', staging.read_map(drive['map'])['rate_hz']]
+        job.programs.run('plumb-convert', staged / 'images', '--camera', staged / 'camera.toml', *rate, '--out', part, log=said)
+    else:
+        job.programs.run('plumb-kitti2lcm', staged, '--out', part, '--camera', drive['camera'], log=said)
     part.replace(whole)
 
 
@@ -114,6 +118,15 @@ def evaluate(job, name, folder, result):
         result['plane'] = json.loads((folder / 'plane.json').read_text())
 
 
+def end_point(poses, road):
+    """How a path ends against the map: distance of its end from its beginning, error in % of the road's length."""
+    places = positions(poses)
+    distance_m = math.dist(places[0], places[-1])
+    return {'map_length_m': road['length_m'], 'path_m': sum(math.dist(a, b) for a, b in zip(places, places[1:])),
+            'end_distance_m': distance_m,
+            'error_percent': 100.0 * abs(distance_m - road['end_distance_m']) / road['length_m']}
+
+
 def run(job, name, mode, number):
     """Replays a drive in a mode, disturbed as the trial says, and measures it."""
     folder = fresh_folder(job.out / 'runs' / name / mode / number)
@@ -132,6 +145,8 @@ def run(job, name, mode, number):
               'ego_status': counts_of(frames, 'ego_status')}
     if (folder / 'truth.txt').exists():
         evaluate(job, name, folder, result)
+    if job.drive(name)['map']:
+        result['end_point'] = end_point(read_poses(folder / 'poses.txt'), staging.read_map(job.drive(name)['map']))
     write_json(folder / 'result.json', result)
 
 
@@ -157,9 +172,11 @@ def placed(job, name, boxes, plane):
     staging.stage(drive, staged, with_labels=True)
     config = job.settings(name, plans.PLANES[plane], plans.is_paper(plane), folder / 'settings.toml')
     files = [folder / 'frames.csv', folder / 'objects.csv']
+    own = training_jobs.candidates_of(job, name)
+    candidates = ['--candidates', own] if own else []
     try:
         job.programs.run('plumb-kitti2lcm', staged, '--camera', drive['camera'], '--detections',
-                         staged / f'{boxes}.txt', '--out', folder / 'boxes.lcm')
+                         staged / f'{boxes}.txt', *candidates, '--out', folder / 'boxes.lcm')
         job.programs.run('plumb-replay', folder / 'boxes.lcm', '--config', config, '--csv', files[0], '--objects',
                          files[1], '--no-times', log=folder / 'replay.txt')
         job.programs.run('plumb-eval', 'placed', staged, *files, '--config', config, '--boxes', f'{boxes}.txt', '--json',
@@ -196,26 +213,6 @@ def other(job, system, name):
     write_json(folder / f'{name}.json', result)
 
 
-def sample(job, name):
-    """What the cues of the published method measured beside the truth."""
-    folder = job.out / 'fit' / 'samples'
-    folder.mkdir(parents=True, exist_ok=True)
-    config = job.settings(name, plans.MODES['paper'], True, folder / f'{name}.toml')
-    part = folder / f'{name}.part'
-    job.programs.run('plumb-train', 'sample', job.out / 'logs' / f'{name}.lcm', '--out', part, '--config', config,
-                     '--drive', name, '--again')
-    part.replace(folder / f'{name}.csv')
-
-
-def fit(job):
-    """Fits the published method's lines to all samples."""
-    folder = job.out / 'fit'
-    part = folder / 'fit.part.json'
-    job.programs.run('plumb-train', 'fit', *sorted((folder / 'samples').glob('*.csv')), '--out', folder / 'model.toml',
-                     '--json', part, log=folder / 'fit.txt')
-    part.replace(folder / 'fit.json')
-
-
 def server(job):
     """The benchmark server's files: sequences 11 to 21 if they are here, else every drive's."""
     names = [name for name, drive in job.plan['drives'].items()
@@ -234,7 +231,8 @@ def server(job):
 def main():
     from plumb_kitti import compare, page, report
     known = {function.__name__: function for function in
-             (log, run, rig, placed, objects, other, sample, fit, server, compare.compare, page.bundle, report.report)}
+             (log, run, rig, placed, objects, other, server, training_jobs.candidates, training_jobs.sample,
+              training_jobs.boxes, training_jobs.example, training_jobs.fit, compare.compare, page.bundle, report.report)}
     if len(sys.argv) < 3 or sys.argv[2] not in known:
         raise UsageError('want OUT and the name of a job')
     known[sys.argv[2]](Job(sys.argv[1]), *sys.argv[3:])

@@ -53,16 +53,18 @@ def tracking_rows(drives, label_folders):
 def rows_of(drives, label_folders, others):
     """[{'section', 'what', 'download'}]. `drives` are plain dictionaries."""
     rows = odometry_rows(drives) + tracking_rows(drives, label_folders)
-    raw = {drive['name'] for drive in drives if drive['kind'] == 'raw' and drive['labels']}
+    raw = {drive['name'] for drive in drives if drive['kind'] == 'raw' and
+           (drive['labels'] or drive['tracklets'])}
     for name in TABLE_3_DRIVES:
         if name not in raw:
-            rows.append(row('Table 3', f'{name} with object labels (label_02.txt in the form of the tracking set)',
+            rows.append(row('Table 3', f'{name} with its tracklets',
                             f'{name}_sync.zip, {name}_tracklets.zip, {name[:10]}_calib.zip'))
     if not others:
         rows.append(row('Fig. 11, Table 1', "other systems' trajectories (--others NAME=FOLDER)",
                         'from their authors, one KITTI text file per sequence'))
-    rows.append(row('Table 2', 'the sequences of The Hague with their map lengths',
-                    'not on a public server: from the authors of the data set'))
+    if not any(drive['kind'] == 'folder' for drive in drives):
+        rows.append(row('Table 2', 'the sequences of The Hague, each as a folder of images with camera.toml and map.toml',
+                        'not on a public server: from the authors of the data set'))
     for drive in drives:
         rows += [row(drive['name'], text.partition(' (')[0], text.partition('(')[2].rstrip(')'))
                  for text in drive['lacks']]

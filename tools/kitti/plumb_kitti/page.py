@@ -66,7 +66,7 @@ def section_html(section, charts):
         parts.append('<p class="missing">Data not here: <a href="#data">what to download</a>.</p>')
     for block in section['blocks']:
         parts.append(block_html(block, len(charts)))
-        if block['type'] in ('lines', 'bars'):
+        if block['type'] in ('lines', 'bars', 'heat'):
             charts.append(block)
     return '\n'.join(parts + ['</section>'])
 

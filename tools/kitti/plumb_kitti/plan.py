@@ -21,8 +21,18 @@ def is_paper(mode):
     return mode.startswith('paper')
 
 
+def camera_facts_of_file(path):
+    """The same for a plain folder's camera.toml."""
+    camera = staging.read_toml(path).get('camera', {})
+    facts = {'height_m': camera.get('camera_height_m', NOMINAL_HEIGHT_M), **{key: camera.get(key) for key in
+                                                                              ('fx_px', 'cx_px', 'cy_px')}}
+    return facts, hashlib.sha256(repr(sorted(camera.items())).encode()).hexdigest()[:8]
+
+
 def camera_facts(drive):
     """The camera as calib states it: the line of its projection, and its height above the road."""
+    if drive['kind'] == 'folder':
+        return camera_facts_of_file(drive['calib'])
     values = staging.read_tracking_calibration(drive['calib'])
     names = [pattern % drive['camera'] for pattern in PROJECTIONS]
     projection = next((values[name] for name in names if name in values), [])
@@ -50,11 +60,16 @@ def make(drives, label_folders, options, trackers, others):
         facts[drive['name']], drive['rig'] = camera_facts(drive)
         drive['camera_facts'] = facts[drive['name']]
     trials = {drive['name']: [trial_of(k, drive['num_images']) for k in range(options.trials + 1)] for drive in drives}
-    boxes = {drive['name']: ['label_02', *sorted(drive['boxes'])] for drive in drives if drive['labels']}
-    return {'bin': str(pathlib.Path(options.bin).resolve()), 'drives': {drive['name']: drive for drive in drives},
+    boxes = {drive['name']: ['label_02', *sorted(drive['boxes'])] for drive in drives
+             if drive['labels'] or drive['tracklets']}
+    by_name = {drive['name']: drive for drive in drives}
+    true = [drive['name'] for drive in drives if drive['poses'] or drive['oxts']]
+    seen = [name for name in true if name in boxes and (options.detector or by_name[name]['candidates'])]
+    return {'bin': str(pathlib.Path(options.bin).resolve()), 'drives': by_name,
             'modes': sorted({'default', *options.modes}, key=list(MODES).index), 'trials': trials, 'boxes': boxes,
             'planes': list(PLANES), 'label_folders': {str(k): path for k, path in enumerate(label_folders)},
-            'trackers': trackers, 'others': others}
+            'trackers': trackers, 'others': others,
+            'detector': str(options.detector.resolve()) if options.detector else '', 'example': (seen or true)[:1]}
 
 
 def write(plan, path):

@@ -1,5 +1,5 @@
 """Puts the results into report.html, and the data of the page into report.json. The same results give the same bytes."""
-from plumb_kitti import jobs, page, sections
+from plumb_kitti import jobs, objects, page, sections, training
 from plumb_kitti.results import Results
 from plumb_tools.figures import cell
 
@@ -30,8 +30,8 @@ def report(job, failed=None):
     results = Results(job.out, job.plan)
     data = {'title': 'Plumbline on KITTI', 'headline': headline(results), 'sections': [
         sections.data_section(results), sections.table_1(results), sections.figure_1(results), sections.figure_9(results),
-        sections.figure_10(results), sections.plane_section(results), sections.training(results), sections.figure_11(results),
-        sections.figure_12(results), sections.tables_2_and_3(results), sections.runs_section(results, failed or {})]}
+        sections.figure_10(results), sections.plane_section(results), training.training(results), sections.figure_11(results),
+        objects.figure_12(results), objects.tables_2_and_3(results), sections.runs_section(results, failed or {})]}
     part = job.out / 'report.part'
     part.write_text(page.html_of(data, job.out / 'page'))
     part.replace(job.out / 'report.html')

@@ -7,9 +7,11 @@ import os
 import pathlib
 import shutil
 import struct
+import tomllib
 
+from plumb_kitti import tracklets
 from plumb_kitti.discover import RAW_CALIBRATION
-from plumb_tools.command_line import UsageError
+from plumb_tools.command_line import UsageError, did_you_mean
 
 TRACKING_PERIOD_US = 100000  # the tracking set has no time stamps; its images were taken at 10 Hz
 TRACKING_NAMES = {'R_rect': 'R0_rect', 'Tr_velo_cam': 'Tr_velo_to_cam', 'Tr_imu_velo': 'Tr_imu_to_velo'}
@@ -99,7 +101,49 @@ def write_projections(folder):
     (folder / 'calib.txt').write_text(''.join(lines))
 
 
-STAGERS = {'odometry': stage_odometry, 'raw': stage_raw, 'tracking': stage_tracking}
+def stage_folder(drive, folder):
+    link(drive['images'], folder / 'images')
+    link(drive['calib'], folder / 'camera.toml')
+    link(drive['times'], folder / 'times.txt')
+
+
+def read_toml(path):
+    try:
+        return tomllib.loads(pathlib.Path(path).read_text())
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise UsageError(f'{path}: {error}') from None
+
+
+MAP_KEYS = {'length_m': (0.1, 1e6), 'end_distance_m': (0.0, 1e6), 'rate_hz': (0.1, 1000.0)}
+
+
+def read_map(path):
+    """{'length_m', 'end_distance_m', 'rate_hz'} of a map.toml; what it does not state is a loop at 10 images per second."""
+    values = {'end_distance_m': 0.0, 'rate_hz': 10.0, **read_toml(path)}
+    for key, value in values.items():
+        if key not in MAP_KEYS:
+            raise UsageError(f'{path}: unknown key {key}' + did_you_mean(key, MAP_KEYS))
+        low, high = MAP_KEYS[key]
+        if not isinstance(value, (int, float)) or not low <= value <= high:
+            raise UsageError(f'{path}: {key} = {value} is not a number in [{low:g}, {high:g}]')
+    if 'length_m' not in values:
+        raise UsageError(f'{path}: length_m is missing')
+    return values
+
+
+def stage_labels(drive, folder):
+    """Leaves label_02.txt, made of a raw drive's tracklets where the drive has no labels."""
+    if drive['labels'] or not drive['tracklets']:
+        link(drive['labels'], folder / 'label_02.txt')
+        return
+    cam, velo = (read_tracking_calibration(folder / name) if (folder / name).exists() else {}
+                 for name in RAW_CALIBRATION[:2])
+    if 'S_rect_02' not in cam or not velo:
+        raise UsageError(f"{drive['tracklets']}: no calib_velo_to_cam.txt, or no S_rect_02 in calib_cam_to_cam.txt beside it")
+    (folder / 'label_02.txt').write_text(tracklets.labels(drive['tracklets'], cam, velo))
+
+
+STAGERS = {'odometry': stage_odometry, 'raw': stage_raw, 'tracking': stage_tracking, 'folder': stage_folder}
 
 
 def stage(drive, folder, with_labels=False):
@@ -110,7 +154,8 @@ def stage(drive, folder, with_labels=False):
     if with_labels:
         if not (folder / 'calib.txt').exists():
             write_projections(folder)
-        link(drive['labels'], folder / 'label_02.txt')
+        stage_labels(drive, folder)
+        link(drive['candidates'], folder / 'candidates.txt')
         for name, path in drive['boxes'].items():
             link(path, folder / f'{name}.txt')
 

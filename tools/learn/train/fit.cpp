@@ -178,6 +178,19 @@ std::vector<ConfidenceFit> fit_paper(const std::vector<DriveSamples>& drives, Pa
   return fits;
 }
 
+std::optional<ConfidenceFit> fit_paper_objects(const std::vector<BoxSample>& boxes,
+                                               PaperModel* model) {
+  std::vector<Confidence> confidences;
+  for (const BoxSample& box : boxes) {
+    if (std::isfinite(box.confidence_px2) && std::isfinite(box.error_n3))
+      confidences.push_back({box.confidence_px2, box.error_n3});
+  }
+  ConfidenceFit fit{"objects n3", bin_confidences(std::move(confidences), kNumConfidenceBins), {}};
+  if (fit.bins.size() < 2) return std::nullopt;
+  fit.line = model->objects_n3 = fit_line(fit.bins);
+  return fit;
+}
+
 std::optional<ConfidenceFit> fit_objects(const std::vector<DriveSamples>& drives,
                                          GroundModel* model) {
   const auto seen = [](const Sample& s) { return std::isfinite(s.objects_err_n3); };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "modules/ground_paper/paper_model.hpp"
+#include "tools/learn/train/box_samples.hpp"
 #include "tools/learn/train/confidence_line.hpp"
 #include "tools/learn/train/targets.hpp"
 
@@ -34,6 +35,10 @@ struct ConfidenceFit {
 /// Fits the published method's lines, from samples of algorithm "paper".
 [[nodiscard]] std::vector<ConfidenceFit> fit_paper(const std::vector<DriveSamples>& drives,
                                                    PaperModel* model);
+
+/// Fits model C_d of Algorithm 1 for the published method; nothing with fewer than two bins.
+[[nodiscard]] std::optional<ConfidenceFit> fit_paper_objects(const std::vector<BoxSample>& boxes,
+                                                             PaperModel* model);
 
 /// Fits model C_d of Algorithm 1 (objects_n3) and objects_correlated_images, from drives with
 /// detections and true planes. Without any it returns null and leaves the model as it is.

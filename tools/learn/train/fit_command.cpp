@@ -44,6 +44,15 @@ std::vector<DriveSamples> without(const std::vector<DriveSamples>& drives,
   return rest;
 }
 
+std::vector<BoxSample> read_all_boxes(const std::vector<std::string>& names) {
+  std::vector<BoxSample> all;
+  for (const std::string& name : names) {
+    const std::vector<BoxSample> boxes = read_box_samples(name);
+    all.insert(all.end(), boxes.begin(), boxes.end());
+  }
+  return all;
+}
+
 OverwriteGuard guard_samples(const std::vector<std::string>& samples) {
   OverwriteGuard guard;
   for (const std::string& file : samples) guard.reads("SAMPLES", file);
@@ -93,6 +102,10 @@ CommandLine add_fit_command(CommandLine* app, FitCommand* command) {
   sub.add_option("--out", command->out, "model file to write").required();
   sub.add_option("--start", command->start,
                  "model for everything that these samples do not determine [the built-in one]");
+  sub.add_option("--boxes", command->boxes,
+                 "file that plumb-train boxes wrote, for samples of the published method; may be "
+                 "repeated")
+      .take_all();
   sub.add_option("--hold-out", command->hold_out, "drive to score but not to fit; may be repeated")
       .take_all();
   sub.add_flag("--plane-only", command->plane_only,
@@ -113,8 +126,12 @@ int run_fit_command(const FitCommand& command) {
   report.models = load_models(command.start);
   if (all.front().algorithm == "paper") {
     report.paper = fit_paper(drives, &report.models.paper);
+    if (auto objects = fit_paper_objects(read_all_boxes(command.boxes), &report.models.paper))
+      report.paper.push_back(std::move(*objects));
     std::cout << to_text(report.paper);
   } else {
+    if (!command.boxes.empty())
+      throw InputError("--boxes: the samples are not of the published method");
     fit_learned(command, all, drives, &report);
     std::cout << to_text(report.held_out);
     if (report.objects) std::cout << to_text({*report.objects});

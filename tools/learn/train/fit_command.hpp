@@ -11,6 +11,7 @@ namespace plumb {
 
 struct FitCommand {
   std::vector<std::string> samples;
+  std::vector<std::string> boxes;
   std::vector<std::string> hold_out;
   std::string out, start;
   ReportOptions report;

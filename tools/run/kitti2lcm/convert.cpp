@@ -12,6 +12,7 @@
 #include "modules/detections/detections_wire.hpp"
 #include "plumb/ground_truth_t.hpp"
 #include "plumb/vehicle_speed_t.hpp"
+#include "tools/datasets/kitti_tracking/candidate_file.hpp"
 #include "tools/datasets/kitti_tracking/kitti_tracking.hpp"
 #include "tools/support/camera_log.hpp"
 #include "tools/support/progress.hpp"
@@ -32,6 +33,8 @@ class Converter {
             std::vector<TrackingRow> boxes)
       : options_(options),
         boxes_(std::move(boxes)),
+        candidates_(options.candidates.empty() ? std::vector<CandidateRow>{}
+                                               : read_candidates(options.candidates)),
         log_(options.out, with_size(sequence.camera, first_image), options.jpeg) {}
 
   void add(const SequenceFrame& frame, const cv::Mat& image) {
@@ -63,6 +66,7 @@ class Converter {
   void write_detections(const SequenceFrame& frame) {
     DetectionFrame detections = detections_of_frame(boxes_, static_cast<int>(frame.seq));
     detections.capture_us = frame.capture_us;
+    attach_candidates(candidates_, &detections);
     result_.num_detections += static_cast<std::int64_t>(detections.detections.size());
     to_wire(detections, &detections_);
     log_.write(kDetections, detections_);
@@ -106,6 +110,7 @@ class Converter {
 
   const ConvertOptions& options_;
   std::vector<TrackingRow> boxes_;
+  std::vector<CandidateRow> candidates_;
   CameraLog log_;
   ConvertResult result_;
   detections_t detections_{};

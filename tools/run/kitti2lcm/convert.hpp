@@ -17,6 +17,7 @@ struct ConvertOptions {
   std::filesystem::path out;
   bool jpeg = false;                      ///< true: JPEG of quality 95; false: plain pixels
   std::filesystem::path detections = {};  ///< KITTI tracking file; empty: none
+  std::filesystem::path candidates = {};  ///< boxes before suppression for them; empty: none
   bool vehicle_speed = false;             ///< true: VEHICLE_SPEED from the true poses
 };
 

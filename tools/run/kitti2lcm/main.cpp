@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "core/input_error.hpp"
 #include "modules/datasets/text.hpp"
 #include "platform/command_line.hpp"
 #include "platform/overwrite_guard.hpp"
@@ -41,6 +42,9 @@ void add_options(plumb::CommandLine* app, plumb::SequenceOptions* sequence,
                   "true ground planes [SEQ_DIR/gt_ground_plane*.txt]");
   app->add_option("--detections", convert->detections,
                   "boxes: KITTI tracking labels, or a tracker's output [SEQ_DIR/label_02.txt]");
+  app->add_option("--candidates", convert->candidates,
+                  "the detector's boxes before suppression, rows 'frame type left top right bottom "
+                  "score'");
   app->add_flag("--vehicle-speed", convert->vehicle_speed,
                 "write the true speed as VEHICLE_SPEED, as if the vehicle stated it");
   app->add_option(
@@ -69,6 +73,7 @@ void refuse_overwriting(const plumb::SequenceOptions& sequence,
       .reads("--poses", sequence.poses)
       .reads("--planes", sequence.planes)
       .reads("--detections", convert.detections)
+      .reads("--candidates", convert.candidates)
       .reads_folder("SEQ_DIR", sequence.folder, {".txt", ".png"})
       .writes("--out", convert.out)
       .check();
@@ -83,6 +88,8 @@ int run(const plumb::SequenceOptions& options, plumb::ConvertOptions convert_opt
     convert_options.detections = labels;
     std::cerr << "plumb-kitti2lcm: boxes from " << labels.string() << "\n";
   }
+  if (!convert_options.candidates.empty() && convert_options.detections.empty())
+    throw plumb::InputError("--candidates belong to boxes: give --detections, too");
   for (const std::string& note : sequence.notes) std::cerr << "plumb-kitti2lcm: " << note << "\n";
   const plumb::ConvertResult result = plumb::convert(sequence, convert_options);
   std::cout << plumb::format(
