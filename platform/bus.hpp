@@ -110,7 +110,7 @@ class RawSubscriber {
   /// Returns null when it accepts the message, and else the reason as a string literal.
   using Handler = std::function<const char*(Bytes)>;
   static constexpr int kQueueMessages = 16;  ///< slots of a reader of decoded messages
-  static constexpr int kQueueImages = 2;     ///< slots of other readers; the kernel holds the rest
+  static constexpr int kQueueImages = 3;     ///< slots of other readers; the kernel holds the rest
 
   /// Subscribes to `channel`, which has one reader per bus. `bus` and `channel` outlive the
   /// subscriber. Throws BusError.

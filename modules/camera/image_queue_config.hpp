@@ -20,7 +20,7 @@ struct ImageQueueConfig {
     field("images.max_wait_s", c.max_wait_s, 0.01, 60.0,
           "plumb-vo and plumb-ground skip an image that waited longer while a newer one waits");
     field("images.max_pixels", c.max_pixels, 64 * 64, kMaxPixels,
-          "of the largest image that readers of CAMERA have memory for, 4 times");
+          "of the largest image that readers of CAMERA have memory for, 7 times");
   }
 };
 

@@ -18,10 +18,8 @@ namespace plumb {
 
 class UdpmInbox {
  public:
-  /// Messages that can be in reassembly at the same time: CAMERA alone is larger than a packet, and
-  /// a sender finishes one message before it begins the next. Each costs as much as the largest
-  /// message.
-  static constexpr std::size_t kDefaultReassembly = 2;
+  /// Messages that can be in reassembly at the same time.
+  static constexpr std::size_t kDefaultReassembly = 4;
 
   explicit UdpmInbox(std::size_t num_in_reassembly = kDefaultReassembly)
       : reassembly_(num_in_reassembly) {}
