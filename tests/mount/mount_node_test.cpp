@@ -75,6 +75,7 @@ TEST_F(MountNodeTest, WhatIsLearnedOfTheHeightBelongsToOneCamera) {
   GroundOutput output = test::straight_on({0.0, 0.0, 0.0});
   output.ego.road_step_heights = 0.1 * test::kSpeed_m_s / 1.4;
   output.ego.road_step_ln_var = 1e-4;
+  output.ego.rate_ground_rad_s.setZero();
   const auto drive_seconds = [&](int seconds, int camera) {
     for (int i = 0; i < 10 * seconds; ++i) {
       output.capture_us = now_us_ += 100'000;

@@ -156,7 +156,7 @@ TEST(UnknownWords, AreRefusedWithTheNearestKnownOne) {
            {"plumb-calibrate", "a --parameter k1", "did you mean --parameters?"},
            {"plumb-calibrate", "a --parameters k3", "did you mean k1?"},
            {"plumb-draw", "a b --out c --fames 3", "did you mean --frames?"},
-           {"plumb-synth", "--out a --height 2", "did you mean --camera-height?"},
+           {"plumb-synth", "--out a --camera-heigt 2", "did you mean --camera-height?"},
            {"plumb-synth", "--out a --route ctiy", "did you mean city?"},
            {"plumb-synth", "--out a --lead lorry", "lorry is none of none, car, truck"},
            {"plumb-vo", "--sed 3", "did you mean --seed?"},

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 namespace plumb {
 namespace {
 
@@ -98,7 +96,8 @@ TEST_F(PendingImagesTest, KeepsCompressedImagesUpToASlot) {
   image.frame.compressed = true;
   image.frame.row_stride_bytes = 0;
   image.bytes.resize(kSlotWidth * kSlotHeight);
-  std::iota(image.bytes.begin(), image.bytes.end(), std::uint8_t{1});
+  for (std::size_t i = 0; i < image.bytes.size(); ++i)
+    image.bytes[i] = static_cast<std::uint8_t>(i + 1);
   image.frame.data = image.bytes;
   ASSERT_TRUE(images_.put(image.frame));
   const ImageFrame* kept = find(1);
