@@ -3,6 +3,12 @@
 #include <utility>
 
 namespace plumb {
+namespace {
+
+// Neighbours may be swapped on their way, so that one motion may come late.
+constexpr int kMostBehind = 1;
+
+}  // namespace
 
 GroundNode::GroundNode(const GroundConfig& config, const DetectionsConfig& detections,
                        StageProbe* probe, Sink sink, const GroundModel& model, Factory make)
@@ -106,14 +112,25 @@ const char* GroundNode::follow(const vo_motion_t& message) {
       if (message.prev_seq < 0 && last_motion_seq_ >= 0) {
         begin_anew(message);
       } else if (message.seq <= last_motion_seq_) {
-        return "VO motion came twice or out of order";
+        if (!is_left_behind(message.seq)) return "VO motion came twice or out of order";
+        is_new_unit_ = true;
+        begin_anew(message);
       }
+      num_behind_ = 0;
       break;
   }
   is_motion_missing_ =
       message.prev_seq >= 0 && last_motion_seq_ >= 0 && message.prev_seq != last_motion_seq_;
   if (is_motion_missing_) ++num_motions_lost_;
   return nullptr;
+}
+
+/// One broken number must not shut out all motions after it: two behind it that are in order
+/// among themselves are the true ones.
+bool GroundNode::is_left_behind(std::int64_t seq) {
+  num_behind_ = num_behind_ > 0 && seq > behind_seq_ ? num_behind_ + 1 : 1;
+  behind_seq_ = seq;
+  return num_behind_ > kMostBehind;
 }
 
 void GroundNode::begin_anew(const vo_motion_t& message) {

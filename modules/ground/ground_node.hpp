@@ -103,6 +103,7 @@ class GroundNode {
  private:
   void build();
   [[nodiscard]] const char* follow(const vo_motion_t& message);
+  [[nodiscard]] bool is_left_behind(std::int64_t seq);
   void begin_anew(const vo_motion_t& message);
   void renumber();
   const char* process(const ImageFrame* frame);
@@ -134,6 +135,8 @@ class GroundNode {
   OneSender sender_;
   SteadyNumbers numbers_;              ///< of the images, as the algorithm sees them
   std::int64_t last_motion_seq_ = -1;  ///< the source's number; -1: none in this time line
+  int num_behind_ = 0;                 ///< motions in a row that came after a higher number
+  std::int64_t behind_seq_ = 0;        ///< of the newest of them
   std::int32_t epoch_offset_ = 0;      ///< added to VO's scale_epoch
   std::int32_t last_epoch_ = 0;        ///< with the offset
   bool is_new_unit_ = false;        ///< the newest motion is the first of another run of plumb-vo

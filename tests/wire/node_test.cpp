@@ -239,6 +239,17 @@ TEST_F(GroundNodeTest, RefusesMotionsThatComeTwiceOrOutOfOrder) {
   motion(4);
 }
 
+TEST_F(GroundNodeTest, ANumberThatIsFarTooHighShutsOutNoMoreThanOneMotion) {
+  calibrate();
+  for (std::int64_t seq = 1; seq <= 3; ++seq) motion(seq);
+  motion(1'000'000);
+  EXPECT_STREQ("VO motion came twice or out of order", node_->take_motion(sample_motion(5)));
+  EXPECT_EQ(nullptr, node_->take_motion(sample_motion(6)));
+  EXPECT_EQ(nullptr, node_->take_motion(sample_motion(7)));
+  node_->expire();
+  EXPECT_EQ(7, results_.back().seq);
+}
+
 TEST_F(GroundNodeTest, FollowsARestartedSenderAtOnce) {
   calibrate();
   for (std::int64_t seq = 100; seq <= 102; ++seq) motion(seq);
