@@ -129,10 +129,10 @@ void visit_start(Config& c, Visit&& field) {
   field(
       "ground.filter.start_confirmations", c.start_confirmations, 1, 100,
       "images with a measured height after a start, itself among them, before the scale is known");
-  field(
-      "ground.filter.start_doubt_std", c.start_doubt_std, 0.0, 1.0,
-      "1-sigma of ln scale on top of the filter's at a start or a new unit; a half after a tenth of a "
-      "second in which heights are measured, a third after two");
+  field("ground.filter.start_doubt_std", c.start_doubt_std, 0.0, 1.0,
+        "1-sigma of ln scale on top of the filter's at a start or a new unit; a half after a tenth "
+        "of a "
+        "second in which heights are measured, a third after two");
 }
 
 template <typename Config, typename Visit>
