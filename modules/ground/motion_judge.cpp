@@ -29,9 +29,9 @@ constexpr double kForgetTime_s = 5.0;
 constexpr double kMostOfOne = 40.0;
 
 // Weight of a new image in the running mean of the gap between the road's speed and the filter, and
-// how many standard deviations of the speed it may have.
+// what it may be in ln height.
 constexpr double kGapShare = 0.5;
-constexpr double kMostGapStds = 0.5;
+constexpr double kMostGap = 0.04;
 
 }  // namespace
 
@@ -80,11 +80,8 @@ void MotionJudge::follow_filter(const Observation& motion, double ln_height) {
     return;
   }
   gap_ += kGapShare * (std::log(motion.report.height) - ln_height - gap_);
-  gap_std_ = std::sqrt(motion.report.height_var) / motion.report.height;
 }
 
-double MotionJudge::excess() const {
-  return std::max(0.0, std::abs(gap_) - kMostGapStds * gap_std_);
-}
+double MotionJudge::excess() const { return std::max(0.0, std::abs(gap_) - kMostGap); }
 
 }  // namespace plumb

@@ -27,7 +27,7 @@ class MotionJudge {
   /// Follows how far the road's speed is from the filter's height. The other cues may agree among
   /// themselves on a plane that the road's speed contradicts.
   void follow_filter(const Observation& motion, double ln_height);
-  /// How much farther the two are from each other than the road's speed may err.
+  /// How much farther the two are from each other than they usually are.
   [[nodiscard]] double excess() const;
   /// The filter starts anew.
   void forget_filter() { gap_ = 0.0; }
@@ -43,8 +43,7 @@ class MotionJudge {
   static void judge_cue(const CueReport& motion, double dt_s, JudgedCue* cue, CueReport* report);
 
   std::array<JudgedCue, kNumCues> cues_{};
-  double gap_ = 0.0;      // ln height by the road's speed less the filter's, running mean
-  double gap_std_ = 0.0;  // of the road's speed
+  double gap_ = 0.0;  // ln height by the road's speed less the filter's, running mean
 };
 
 }  // namespace plumb

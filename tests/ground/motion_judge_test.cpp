@@ -100,13 +100,13 @@ TEST(MotionJudge, JudgesAlikeAtAnyRateOfImages) {
   EXPECT_NEAR(refused_after_s(0.1), refused_after_s(0.03), 0.3);
 }
 
-TEST(MotionJudge, TheGapToTheFilterCountsBeyondHalfADeviation) {
+TEST(MotionJudge, TheGapToTheFilterCountsBeyondTheUsualOne) {
   MotionJudge judge;
   Observation motion = heights(0.06, 1.0, 1.0)[kCueMotion];
   for (int i = 0; i < 20; ++i) judge.follow_filter(motion, 0.02);
   EXPECT_EQ(judge.excess(), 0.0);
   for (int i = 0; i < 20; ++i) judge.follow_filter(motion, 0.10);
-  EXPECT_NEAR(judge.excess(), 0.07, 1e-3);
+  EXPECT_NEAR(judge.excess(), 0.06, 1e-3);
   motion.report.status = CueStatus::kAbsent;
   for (int i = 0; i < 20; ++i) judge.follow_filter(motion, 0.10);
   EXPECT_EQ(judge.excess(), 0.0) << "without the road's speed";

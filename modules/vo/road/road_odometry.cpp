@@ -10,20 +10,15 @@ namespace {
 // What the posterior of the speed does not know: 0.1 degrees of pitch, the slope of the road ahead
 // and the lens.
 constexpr double kLeastSpeedStd = 0.05;
+// What is known less of a road that is newly seen: a peak may be the wrong one of repeating marks,
+// and the direction of travel one of traffic. In dense traffic, 25 % were seen.
+constexpr double kNewSpeedStd = 0.2;
+constexpr double kNewTime_s = 1.0;
 // Standard deviation of the direction of travel [rad].
 constexpr double kDirectionStd = 0.01;
 
 bool has_rotation(const VoOutput& vo) {
   return vo.status != VoStatus::kInitializing && vo.status != VoStatus::kLost;
-}
-
-double speed_std_ratio(const RoadSpeedEstimate& road) {
-  return std::hypot(kLeastSpeedStd, road.speed_std / road.speed);
-}
-
-void state_height(double unit, const RoadSpeedEstimate& road, VoOutput* vo) {
-  vo->road_height = unit;
-  vo->road_height_std = speed_std_ratio(road) * unit;
 }
 
 }  // namespace
@@ -33,6 +28,7 @@ void RoadOdometry::reset() {
   watch_.reset();
   poses_.clear();
   sees_road_ = false;
+  sure_s_ = 0.0;
 }
 
 void RoadOdometry::update(const ImageView& image, bool usable, double dt_s, VoOutput* vo) {
@@ -43,6 +39,7 @@ void RoadOdometry::update(const ImageView& image, bool usable, double dt_s, VoOu
   }
   const RoadSpeedEstimate& road = motion_.estimate();
   sees_road_ = usable && road.sure;
+  sure_s_ = road.sure ? sure_s_ + dt_s : 0.0;
   const MotionSource before = watch_.source();
   const MotionSource source = watch_.judge(*vo, road, dt_s);
   if (source == MotionSource::kRoad && before != source) {
@@ -55,6 +52,16 @@ void RoadOdometry::update(const ImageView& image, bool usable, double dt_s, VoOu
   } else if (sees_road_ && vo->status == VoStatus::kOk && watch_.knows_unit()) {
     state_height(watch_.unit(), road, vo);
   }
+}
+
+double RoadOdometry::speed_std_ratio(const RoadSpeedEstimate& road) const {
+  const double newness = kNewSpeedStd * std::exp(-sure_s_ / kNewTime_s);
+  return std::hypot(kLeastSpeedStd, road.speed_std / road.speed, newness);
+}
+
+void RoadOdometry::state_height(double unit, const RoadSpeedEstimate& road, VoOutput* vo) const {
+  vo->road_height = unit;
+  vo->road_height_std = speed_std_ratio(road) * unit;
 }
 
 /// Counts the units of VO and the changes between VO and the road.

@@ -43,6 +43,8 @@ class RoadOdometry {
     Se3 T_start_cam;
   };
 
+  [[nodiscard]] double speed_std_ratio(const RoadSpeedEstimate& road) const;
+  void state_height(double unit, const RoadSpeedEstimate& road, VoOutput* vo) const;
   void number_epoch(MotionSource before, VoOutput* vo);
   void replace(const RoadSpeedEstimate& road, bool usable, double dt_s, VoOutput* vo);
   void replace_window(VoOutput* vo);
@@ -50,6 +52,7 @@ class RoadOdometry {
   RoadMotion motion_;
   RoadWatch watch_;
   bool sees_road_ = false;
+  double sure_s_ = 0.0;                       // for so long the road has been seen
   double unit_ = 1.0;                         // [vo per height] while the road is the source
   std::int32_t features_epoch_ = 0;           // of VO's own unit
   std::int32_t epoch_ = 0;                    // as it is published
