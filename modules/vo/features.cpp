@@ -49,9 +49,10 @@ void collect_features(const TrackTable& tracks, const Window& window, const Se3&
                       const CameraModel& camera, FixedVector<Feature, kMaxFeatures>* features) {
   features->clear();
   const Eigen::Vector2d focal_px(camera.fx_px, camera.fy_px);
+  const auto T_cam_slot = window.slots_to_cam(T_cam_world);
   for (const int index : tracks.active()) {
     const Track& track = tracks[index];
-    const Se3 T_cam_host = T_cam_world * window[track.host].T_cam_world.inverse();
+    const Se3& T_cam_host = T_cam_slot[static_cast<std::size_t>(track.host)];
     if (!features->push_back({track.px.cast<float>(), kind_of(track, T_cam_host, focal_px)}))
       return;
   }

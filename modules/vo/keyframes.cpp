@@ -99,10 +99,11 @@ void Keyframes::promote(int slot, const ImageView& image, TrackTable& tracks, Wi
 // Collects the active tracks with known depth, as `slot` sees them.
 void Keyframes::collect_neighbours(int slot, const TrackTable& tracks, const Window& window) {
   neighbours_.clear();
+  const auto T_cam_slot = window.slots_to_cam(window[slot].T_cam_world);
   for (const int index : tracks.active()) {
     const Track& track = tracks[index];
     if (track.host == slot || track.rho_std > kKnownDepth * track.rho) continue;
-    const Se3 T_cam_host = window[slot].T_cam_world * window[track.host].T_cam_world.inverse();
+    const Se3& T_cam_host = T_cam_slot[static_cast<std::size_t>(track.host)];
     double rho = 0.0;
     double rho_std = 0.0;
     if (inverse_depth_in(track, T_cam_host, &rho, &rho_std)) neighbours_.push_back({track.px, rho});

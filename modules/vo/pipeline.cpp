@@ -1,7 +1,6 @@
 #include "modules/vo/pipeline.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "core/percentile.hpp"
 #include "modules/vo/features.hpp"
@@ -154,11 +153,7 @@ void Pipeline::track(StageProbe& probe) {
 /// track is held against every depth from infinity on: its place in its host's image, turned by the
 /// camera's rotation, and from there on along the epipolar line.
 void Pipeline::observe_attached(const Se3& T_cam_world) {
-  std::array<Se3, kMaxFrames> T_cam_slot;
-  for (const int slot : map_.window.order()) {
-    T_cam_slot[static_cast<std::size_t>(slot)] =
-        T_cam_world * map_.window[slot].T_cam_world.inverse();
-  }
+  const auto T_cam_slot = map_.window.slots_to_cam(T_cam_world);
   for (const int index : map_.tracks.active()) {
     const Track& track = map_.tracks[index];
     if (track.num_images < kMinAttachedImages) continue;
@@ -385,9 +380,10 @@ void Pipeline::observe_orientation() {
   const Se3 T_cam_world = map_.last_pose();
   const Se3& T_window_cam = out_.window[out_.window.size() - 1].T_window_cam;
   orientation_.begin(T_window_cam.R.transpose() * T_window_cam.t);
+  const auto T_cam_slot = window.slots_to_cam(T_cam_world);
   for (const int index : map_.tracks.active()) {
     const Track& track = map_.tracks[index];
-    const Se3 T_cam_host = T_cam_world * window[track.host].T_cam_world.inverse();
+    const Se3& T_cam_host = T_cam_slot[static_cast<std::size_t>(track.host)];
     double rho = 0.0;
     double rho_std = 0.0;
     if (inverse_depth_in(track, T_cam_host, &rho, &rho_std)) {

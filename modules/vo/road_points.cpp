@@ -16,10 +16,11 @@ constexpr double kMaxRelStd = 0.5;  // standard deviation of the inverse depth, 
 void collect_road_points(const TrackTable& tracks, const Window& window, const Se3& T_cam_world,
                          FixedVector<RoadPoint, kMaxRoadPoints>* points) {
   points->clear();
+  const auto T_cam_slot = window.slots_to_cam(T_cam_world);
   for (const int index : tracks.active()) {
     const Track& track = tracks[index];
     if (track.num_images < kMinImages) continue;
-    const Se3 T_cam_host = T_cam_world * window[track.host].T_cam_world.inverse();
+    const Se3& T_cam_host = T_cam_slot[static_cast<std::size_t>(track.host)];
     double rho = 0.0;
     double rho_std = 0.0;
     if (!inverse_depth_in(track, T_cam_host, &rho, &rho_std)) continue;

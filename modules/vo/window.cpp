@@ -131,4 +131,12 @@ void Window::push_history(const PastFrame& past) {
   history_[0] = past;
 }
 
+std::array<Se3, kMaxFrames> Window::slots_to_cam(const Se3& T_cam_world) const {
+  std::array<Se3, kMaxFrames> T_cam_slot;
+  for (const int slot : order_) {
+    T_cam_slot[static_cast<std::size_t>(slot)] = T_cam_world * (*this)[slot].T_cam_world.inverse();
+  }
+  return T_cam_slot;
+}
+
 }  // namespace plumb::vo

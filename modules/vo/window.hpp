@@ -86,6 +86,9 @@ class Window {
   [[nodiscard]] Se3 past_pose(const PastFrame& past) const {
     return past.T_cam_slot * (*this)[past.slot].T_cam_world;
   }
+  /// Returns, by slot, what maps coordinates in each frame to those in a camera at T_cam_world.
+  /// Only the slots of order() are set.
+  [[nodiscard]] std::array<Se3, kMaxFrames> slots_to_cam(const Se3& T_cam_world) const;
   /// Adds a frame to the history that gets no slot. Its pose is kept relative to the newest frame.
   void remember(std::int64_t seq, const Se3& T_cam_world, bool measured);
   /// Gives the frame before the newest one another pose. @pre num_history() > 1
