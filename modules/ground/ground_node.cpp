@@ -112,7 +112,7 @@ const char* GroundNode::follow(const vo_motion_t& message) {
       if (message.prev_seq < 0 && last_motion_seq_ >= 0) {
         begin_anew(message);
       } else if (message.seq <= last_motion_seq_) {
-        if (!is_left_behind(message.seq)) return "VO motion came twice or out of order";
+        if (!falls_behind_again(message.seq)) return "VO motion came twice or out of order";
         is_new_unit_ = true;
         begin_anew(message);
       }
@@ -127,7 +127,7 @@ const char* GroundNode::follow(const vo_motion_t& message) {
 
 /// One broken number must not shut out all motions after it: two behind it that are in order
 /// among themselves are the true ones.
-bool GroundNode::is_left_behind(std::int64_t seq) {
+bool GroundNode::falls_behind_again(std::int64_t seq) {
   num_behind_ = num_behind_ > 0 && seq > behind_seq_ ? num_behind_ + 1 : 1;
   behind_seq_ = seq;
   return num_behind_ > kMostBehind;
@@ -136,6 +136,7 @@ bool GroundNode::is_left_behind(std::int64_t seq) {
 void GroundNode::begin_anew(const vo_motion_t& message) {
   numbers_.begin_anew(message.seq);
   last_motion_seq_ = -1;
+  num_behind_ = 0;
 }
 
 /// Gives the images of vo_ the numbers that the algorithm sees, which never go back.

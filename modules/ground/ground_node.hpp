@@ -103,7 +103,7 @@ class GroundNode {
  private:
   void build();
   [[nodiscard]] const char* follow(const vo_motion_t& message);
-  [[nodiscard]] bool is_left_behind(std::int64_t seq);
+  [[nodiscard]] bool falls_behind_again(std::int64_t seq);
   void begin_anew(const vo_motion_t& message);
   void renumber();
   const char* process(const ImageFrame* frame);
