@@ -10,16 +10,18 @@
 namespace plumb {
 namespace {
 
-// Index of the error of the road's speed in the state, and the distance in camera heights over
-// which it stays correlated.
+// Places in the state.
+constexpr int kBend = 3;
 constexpr int kSpeedError = 4;
+
+// Distance in camera heights over which the error of the road's speed stays correlated.
 constexpr double kSpeedErrorLength = 400.0;
 
 }  // namespace
 
 PlaneFilter::Jacobian PlaneFilter::ahead_jacobian(const RoadBend& bend) {
   Jacobian J = Jacobian::Identity();
-  J.col(3) << 0.0, 1.0, bend.height_slope;
+  J.col(kBend) << 0.0, 1.0, bend.height_slope;
   return J;
 }
 
@@ -87,8 +89,8 @@ void PlaneFilter::predict_bend(double step_ratio) {
   if (bend_.start_std <= 0.0) return;
   const double old = std::exp(-step_ratio / config_.bend_strength_ratio);
   bend_var_ = std::max(square(config_.least_bend_std),
-                       old * bend_var_ + (1.0 - old) * (square(x_(3)) + P_(3, 3)));
-  fade(3, std::exp(-step_ratio / bend_.correlation_length_ratio), bend_var_);
+                       old * bend_var_ + (1.0 - old) * (square(x_(kBend)) + P_(kBend, kBend)));
+  fade(kBend, std::exp(-step_ratio / bend_.correlation_length_ratio), bend_var_);
 }
 
 /// Predicts a component that is a first-order Gauss-Markov process of this variance.
