@@ -122,19 +122,31 @@ template <typename Config>
   return writer.text();
 }
 
-/// Fills `config` from the file `path`, whose keys replace the values that are there. An empty path
-/// changes nothing. Throws ConfigError, also when the values together contradict each other, where
-/// `Config` has a contradiction() that says so.
+/// Fills `config` from the file `path`, whose keys replace the values that are there. Throws
+/// ConfigError.
 template <typename Config>
-void load_config(const std::string& path, Config* config) {
-  if (path.empty()) return;
+void read_config(const std::string& path, Config* config) {
   ConfigFile file = ConfigFile::load(path);
   Config::visit(*config, ConfigReader(&file));
   file.refuse_unread();
-  if constexpr (requires { config->contradiction(); }) {
-    const std::string why = config->contradiction();
+}
+
+/// Throws ConfigError when values that are each allowed contradict each other, where `Config` has a
+/// contradiction() that says so. `path` names the last file that was read.
+template <typename Config>
+void refuse_contradiction(const std::string& path, const Config& config) {
+  if constexpr (requires { config.contradiction(); }) {
+    const std::string why = config.contradiction();
     if (!why.empty()) throw ConfigError(path + ": " + why);
   }
+}
+
+/// Reads one file and judges what comes out. An empty path changes nothing. Throws ConfigError.
+template <typename Config>
+void load_config(const std::string& path, Config* config) {
+  if (path.empty()) return;
+  read_config(path, config);
+  refuse_contradiction(path, *config);
 }
 
 }  // namespace plumb

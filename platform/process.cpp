@@ -126,7 +126,8 @@ int Process::run_bound(int argc, char** argv, const ConfigBinding& config,
     const int done = impl_->app.parse(argc, argv);
     if (done >= 0) return done;
     check_url(impl_->url);
-    for (const std::string& path : impl_->config_paths) config.load(path);
+    for (const std::string& path : impl_->config_paths) config.read(path);
+    if (!impl_->config_paths.empty()) config.judge(impl_->config_paths.back());
     const auto print = [](const std::string& text) {
       std::fputs(text.c_str(), stdout);
       return std::fflush(stdout) == 0 ? kExitOk : kExitMachine;

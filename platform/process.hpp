@@ -76,7 +76,8 @@ class Process {
   template <typename Config>
   int run(int argc, char** argv, Config* config, const std::function<void()>& setup) {
     return run_bound(argc, argv,
-                     {[config](const std::string& path) { load_config(path, config); },
+                     {[config](const std::string& path) { read_config(path, config); },
+                      [config](const std::string& last) { refuse_contradiction(last, *config); },
                       [config] { return render_config(*config); }},
                      setup);
   }
@@ -96,7 +97,8 @@ class Process {
 
  private:
   struct ConfigBinding {
-    std::function<void(const std::string& path)> load;
+    std::function<void(const std::string& path)> read;
+    std::function<void(const std::string& last_path)> judge;  ///< what all files together say
     std::function<std::string()> render;
   };
   int run_bound(int argc, char** argv, const ConfigBinding& config,

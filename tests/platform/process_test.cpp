@@ -96,6 +96,17 @@ TEST_P(ProcessTest, TakesLaterConfigurationsAsOverlays) {
   EXPECT_NE(std::string::npos, print.output().find("\nroad_near_m = 7.0 ")) << print.output();
 }
 
+TEST_P(ProcessTest, JudgesLimitsOnceAllConfigurationsAreRead) {
+  const std::string program = GetParam();
+  const test::TempFile narrow(".toml", "[ground]\nroad_near_m = 20\nroad_far_m = 19\n");
+  const test::TempFile wide(".toml", "[ground]\nroad_far_m = 40\n");
+  ChildProcess mended(
+      {program, "--config", narrow.path(), "--config", wide.path(), "--print-config"});
+  EXPECT_EQ(0, mended.wait()) << mended.output();
+  expect_refused({program, "--config", wide.path(), "--config", narrow.path(), "--print-config"},
+                 narrow.path() + ": ground.road_near_m is not below ground.road_far_m\n");
+}
+
 // Waits until systemd has heard `count` messages of the program, for up to 10 s.
 std::vector<std::string> hear(test::NotifySocket& manager, ChildProcess& child, std::size_t count) {
   std::vector<std::string> all;
