@@ -18,7 +18,7 @@ bool has_rotation(const VoOutput& vo) {
 }
 
 double speed_std_ratio(const RoadSpeedEstimate& road) {
-  return std::hypot(kLeastSpeedStd, road.speed_std / road.speed);
+  return root_sum_square(kLeastSpeedStd, road.speed_std / road.speed);
 }
 
 void state_height(double unit, const RoadSpeedEstimate& road, VoOutput* vo) {
