@@ -16,6 +16,9 @@ target_compile_options(plumb_strict INTERFACE
   $<$<CONFIG:Debug>:-DEIGEN_INITIALIZE_MATRICES_BY_NAN>
   $<$<BOOL:${PLUMB_SANITIZE}>:${sanitizers} -fno-omit-frame-pointer>
   $<$<BOOL:${PLUMB_FUZZ}>:-fsanitize=fuzzer-no-link -fno-sanitize-recover=all>)
+# Eigen's own vectors would sum in an order and with fused operations that depend on the processor. Its
+# loops are left to the compiler, which keeps the order, so that every processor gives the same bits.
+target_compile_definitions(plumb_strict INTERFACE EIGEN_DONT_VECTORIZE)
 # An error in the handling of memory ends a program instead of being used by somebody: canaries on
 # the stack, checked copies, marked targets of jumps, tables that are read-only after the start.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64")

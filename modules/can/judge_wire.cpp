@@ -21,7 +21,7 @@ bool is_implausible(PlausibilityReason reason) {
          reason == PlausibilityReason::kInconsistent;
 }
 
-double norm(const double (&v)[3]) { return std::hypot(v[0], v[1], v[2]); }
+double norm(const double (&v)[3]) { return root_sum_square(v[0], v[1], v[2]); }
 
 bool is_rotation(const double (&q)[4]) {
   double q2 = 0.0;
@@ -31,7 +31,7 @@ bool is_rotation(const double (&q)[4]) {
 
 /// The rotation about the vertical, left positive, out of that of the camera (y down).
 double turn_rad(const double (&q)[4]) {
-  const double sine = std::hypot(q[1], q[2], q[3]);
+  const double sine = root_sum_square(q[1], q[2], q[3]);
   if (sine < 1e-12) return 0.0;
   const double angle_rad = 2.0 * std::atan2(sine, std::abs(q[0]));
   return -std::copysign(angle_rad, q[0]) * q[2] / sine;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "core/numbers.hpp"
 #include "modules/can/validity_wire.hpp"
 #include "plumb/detection_t.hpp"
 
@@ -98,7 +99,7 @@ const char* fault_of(const object_t& o) {
 }
 
 double range_m(const object_t& o) {
-  return std::hypot(o.position_ground_m[0], o.position_ground_m[1]);
+  return root_sum_square(o.position_ground_m[0], o.position_ground_m[1]);
 }
 
 /// The nearest objects with a place on the road, in order; of equally near ones the first.

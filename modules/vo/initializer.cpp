@@ -35,7 +35,7 @@ constexpr double kAccelerationCorrelationS = 1.0;  // a driver keeps an accelera
 double speed_carry_std(double measured_speed, double unseen_s) {
   const double change_std =
       kCarriedAccelerationStd * unseen_s / std::sqrt(1.0 + unseen_s / kAccelerationCorrelationS);
-  return std::hypot(kSpeedStdRatio, change_std / std::max(measured_speed, 1e-3));
+  return root_sum_square(kSpeedStdRatio, change_std / std::max(measured_speed, 1e-3));
 }
 
 /// Returns the pose of the frame before the newest one, or of the newest one if it is alone.

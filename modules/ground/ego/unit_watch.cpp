@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/numbers.hpp"
+
 namespace plumb {
 namespace {
 
@@ -72,7 +74,7 @@ bool UnitWatch::follows(const Speed& before, const Speed& now, double num_std) c
   const double passed_s = seconds_between(before, now);
   const double change = now.vo_s - before.vo_s;
   const double most_m_s2 = change > 0.0 ? config_.most_accel_m_s2 : config_.most_brake_m_s2;
-  const double scatter = num_std * std::hypot(before.std_vo_s, now.std_vo_s);
+  const double scatter = num_std * root_sum_square(before.std_vo_s, now.std_vo_s);
   return std::abs(change) <= most_m_s2 * passed_s / metres_per_vo_ + scatter ||
          std::abs(change) <= kLeastJumpRatio * before.vo_s;
 }

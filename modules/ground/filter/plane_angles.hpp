@@ -13,13 +13,14 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "core/se3.hpp"
 
 namespace plumb {
 
 /// @pre |normal_cam| = 1
 [[nodiscard]] inline double pitch_of(const Eigen::Vector3d& normal_cam) {
-  return std::atan2(normal_cam.z(), std::hypot(normal_cam.x(), normal_cam.y()));
+  return std::atan2(normal_cam.z(), root_sum_square(normal_cam.x(), normal_cam.y()));
 }
 
 /// @pre |normal_cam| = 1

@@ -56,7 +56,7 @@ void RoadOdometry::update(const ImageView& image, bool usable, double dt_s, VoOu
 
 double RoadOdometry::speed_std_ratio(const RoadSpeedEstimate& road) const {
   const double newness = kNewSpeedStd * std::exp(-sure_s_ / kNewTime_s);
-  return std::hypot(kLeastSpeedStd, road.speed_std / road.speed, newness);
+  return root_sum_square(kLeastSpeedStd, road.speed_std / road.speed, newness);
 }
 
 void RoadOdometry::state_height(double unit, const RoadSpeedEstimate& road, VoOutput* vo) const {
