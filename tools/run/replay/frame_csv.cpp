@@ -1,5 +1,6 @@
 #include "tools/run/replay/frame_csv.hpp"
 
+#include "core/numbers.hpp"
 #include "modules/datasets/text.hpp"
 #include "modules/ground/types/cue_table.hpp"
 #include "modules/ground/types/ground_types.hpp"
@@ -104,7 +105,7 @@ void add_ego(const ego_motion_t& ego, bool answered, CsvRow* row) {
   row->add("yaw_rate_std_rad_s", ego.yaw_rate_std_rad_s, holds);
   row->add("accel_forward_m_s2", ego.accel_forward_m_s2, holds);
   row->add("accel_forward_std_m_s2", ego.accel_forward_std_m_s2, holds);
-  row->add("step_m", std::hypot(ego.t_prev_cam_m[0], ego.t_prev_cam_m[1], ego.t_prev_cam_m[2]),
+  row->add("step_m", root_sum_square(ego.t_prev_cam_m[0], ego.t_prev_cam_m[1], ego.t_prev_cam_m[2]),
            holds);
   row->add("x_m", ego.t_world_cam_m[0], holds);
   row->add("y_m", ego.t_world_cam_m[1], holds);
