@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
-#include <filesystem>
 
 namespace plumb {
 namespace {
@@ -27,11 +29,18 @@ bool close_after(int fd, bool is_good) {
   return is_good && is_closed;
 }
 
+using Path = std::array<char, PATH_MAX>;
+
 /// A folder on a file system that cannot be synchronised is as durable as it gets.
-bool sync_folder(const std::string& path) {
-  std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+bool sync_folder(std::string_view path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string_view::npos)
+    path = ".";
+  else
+    path = path.substr(0, std::max<std::size_t>(1, slash));
+  Path folder{};
+  std::copy(path.begin(), path.end(), folder.begin());
+  const int fd = ::open(folder.data(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return false;
   return close_after(fd, ::fsync(fd) == 0 || errno == EINVAL);
 }
@@ -39,11 +48,16 @@ bool sync_folder(const std::string& path) {
 }  // namespace
 
 bool replace_file(const std::string& path, std::string_view text) {
-  const std::string part = path + ".part";
-  const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  Path part{};
+  const int length = std::snprintf(part.data(), part.size(), "%s.part", path.c_str());
+  if (length < 0 || static_cast<std::size_t>(length) >= part.size()) {
+    errno = ENAMETOOLONG;
+    return false;
+  }
+  const int fd = ::open(part.data(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) return false;
   if (!close_after(fd, write_all(fd, text) && ::fsync(fd) == 0)) return false;
-  return std::rename(part.c_str(), path.c_str()) == 0 && sync_folder(path);
+  return std::rename(part.data(), path.c_str()) == 0 && sync_folder(path);
 }
 
 }  // namespace plumb

@@ -1,4 +1,7 @@
 /// Replaces a file as a whole, so that a power cut leaves the old text or the new one.
+///
+/// Memory:
+///   It allocates nothing.
 #pragma once
 
 #include <string>

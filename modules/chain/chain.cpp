@@ -11,7 +11,8 @@
 namespace plumb {
 namespace {
 
-MountConfig without_file(MountConfig config) {
+template <typename Config>
+Config without_file(Config config) {
   config.state_file.clear();
   return config;
 }
@@ -29,7 +30,7 @@ const char* first_of(std::initializer_list<const char*> reasons) {
 Chain::Chain(const PlumbConfig& config, std::uint64_t seed, CanSink* can_sink, Sink sink,
              ObjectsSink objects_sink)
     : models_(load_models(config.ground.model_file)),
-      vo_(config.vo, seed, &vo_timer_, config.integrity),
+      vo_(without_file(config.vo), seed, &vo_timer_, config.integrity),
       ground_(
           config.ground, config.detections, &ground_timer_,
           [this](const ground_plane_t& plane, const ego_motion_t& ego) {

@@ -85,6 +85,15 @@ void AttachedRegions::end_image(double dt_s) {
   }
 }
 
+void AttachedRegions::restore(std::span<const float> evidence) {
+  num_attached_ = 0;
+  for (std::size_t i = 0; i < evidence_.size(); ++i) {
+    evidence_[i] = std::clamp(evidence[i], kLeastSumOfCell, kMostSumOfCell);
+    is_attached_[i] = evidence_[i] > kAttached ? 1 : 0;
+    num_attached_ += is_attached_[i];
+  }
+}
+
 double AttachedRegions::share() const {
   return static_cast<double>(num_attached_) / static_cast<double>(evidence_.size());
 }

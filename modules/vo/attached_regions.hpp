@@ -19,6 +19,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace plumb::vo {
@@ -55,6 +56,11 @@ class AttachedRegions {
         visit(Eigen::Vector2i(cell % num_columns_ * kCellPx, cell / num_columns_ * kCellPx));
     }
   }
+  /// What speaks for each cell, row by row: logarithms of the odds that it is attached.
+  [[nodiscard]] std::span<const float> evidence() const { return evidence_; }
+  /// Begins with what was known before. @pre evidence.size() is that of evidence()
+  void restore(std::span<const float> evidence);
+  [[nodiscard]] int num_columns() const { return num_columns_; }
   /// Share of the image that is attached.
   [[nodiscard]] double share() const;
 
@@ -65,7 +71,7 @@ class AttachedRegions {
   int num_columns_;
   int num_rows_;
   std::size_t num_attached_ = 0;
-  std::vector<float> evidence_;             // logarithm of the odds that a cell is attached
+  std::vector<float> evidence_;
   std::vector<unsigned char> is_attached_;  // one per cell
 };
 

@@ -41,6 +41,7 @@ class Pipeline {
   Pipeline(const VoConfig& config, const CameraModel& camera, std::uint64_t seed);
   /// Processes one image. The result is valid until the next call.
   const VoOutput& update(const VoInput& input, StageProbe& probe);
+  [[nodiscard]] AttachedRegions& attached() { return map_.attached; }
 
  private:
   [[nodiscard]] bool accept(const VoInput& input);

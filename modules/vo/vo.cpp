@@ -18,4 +18,6 @@ const VoOutput& VisualOdometry::update(const VoInput& input, StageProbe& probe) 
   return impl_->pipeline.update(input, probe);
 }
 
+vo::AttachedRegions& VisualOdometry::attached() { return impl_->pipeline.attached(); }
+
 }  // namespace plumb

@@ -32,6 +32,10 @@
 
 namespace plumb {
 
+namespace vo {
+class AttachedRegions;
+}
+
 inline constexpr std::size_t kMaxRoadPoints = 384;
 inline constexpr std::size_t kMaxWindowPoses = 12;
 inline constexpr std::size_t kMaxFeatures = 1000;
@@ -172,6 +176,9 @@ class VisualOdometry {
 
   /// Processes one image. The result is valid until the next call.
   const VoOutput& update(const VoInput& input, StageProbe& probe);
+
+  /// What is known of the regions that are attached to the camera, to keep it over restarts.
+  [[nodiscard]] vo::AttachedRegions& attached();
 
  private:
   struct Impl;

@@ -17,6 +17,7 @@ struct VoConfig {
   double coast_decay_s = 3.0;
   double dark_grey = 6.0;
   double flat_std_grey = 3.0;
+  std::string state_file;
 
   /// Calls field(key, member, lowest, highest, meaning) for every setting. This is the one list of
   /// keys and ranges.
@@ -46,6 +47,9 @@ struct VoConfig {
     field("vo.dark_grey", c.dark_grey, 0.0, 64.0, "mean below which an image is dark");
     field("vo.flat_std_grey", c.flat_std_grey, 0.0, 32.0,
           "standard deviation below which an image is flat");
+    field("vo.state_file", c.state_file,
+          "file that keeps over restarts what is attached to the camera; delete it after work on "
+          "the camera; empty: no file");
   }
 };
 

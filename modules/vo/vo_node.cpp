@@ -1,12 +1,29 @@
 #include "modules/vo/vo_node.hpp"
 
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
 #include "core/principal_point.hpp"
+#include "platform/config.hpp"
+#include "platform/log.hpp"
 
 namespace plumb {
+namespace {
+
+constexpr std::int64_t kKeepPeriod_us = 30'000'000;
+// More than a dashboard and a bonnet take of a picture that is well aimed.
+constexpr float kMuchAttached = 0.4F;
+
+}  // namespace
 
 VoNode::VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe,
                const IntegrityConfig& integrity)
     : config_(config), integrity_(integrity), seed_(seed), probe_(probe) {}
+
+VoNode::~VoNode() {
+  if (attached_file_) attached_file_->save(estimator_->attached());
+}
 
 void VoNode::configure_camera(const CameraModel& camera) {
   calibration_.configure(camera);
@@ -26,6 +43,32 @@ void VoNode::build() {
   decoder_.emplace(camera.width_px, camera.height_px);
   judge_.emplace(integrity_, camera.width_px, camera.height_px);
   estimator_.emplace(config_, camera, seed_);
+  restore_attached();
+}
+
+void VoNode::restore_attached() {
+  if (config_.state_file.empty()) return;
+  const CameraModel& camera = calibration_.camera();
+  attached_file_.emplace(config_.state_file, camera.width_px, camera.height_px);
+  std::error_code unknown;
+  if (!std::filesystem::exists(config_.state_file, unknown) && !unknown) return;
+  try {
+    load_attached_regions(config_.state_file, camera.width_px, camera.height_px,
+                          &estimator_->attached());
+  } catch (const ConfigError& error) {
+    log_warning("%s; what is attached to the camera will be learned again", error.what());
+  }
+}
+
+/// Writes what is attached to the camera, now and then.
+void VoNode::keep_attached() {
+  if (!attached_file_ || std::abs(motion_.utime - kept_us_) < kKeepPeriod_us) return;
+  if (kept_us_ != 0) {
+    if (const int error = attached_file_->error())
+      log_warning("cannot write %s: %s", attached_file_->path().c_str(), std::strerror(error));
+    attached_file_->save(estimator_->attached());
+  }
+  kept_us_ = motion_.utime;
 }
 
 const char* VoNode::take_image(std::span<const std::uint8_t> image_bytes, std::int64_t arrival_us) {
@@ -48,6 +91,7 @@ const char* VoNode::take_image(std::span<const std::uint8_t> image_bytes, std::i
     motion_.reason = vo_motion_t::REASON_CALIBRATION_DOUBTED;
   }
   motion_.session = session_;
+  keep_attached();
   probe_->mark("to_wire");
   fresh_ = true;
   return nullptr;
@@ -58,6 +102,8 @@ const char* VoNode::concern() const {
   if (calibrated() && !is_principal_point_central(calibration_.camera())) {
     return kPrincipalPointIsOff;
   }
+  if (motion_.attached_share > kMuchAttached)
+    return "much of the picture shows what is attached to the camera";
   return nullptr;
 }
 

@@ -5,9 +5,11 @@
 /// image that comes before a calibration yields a motion with LOST and NO_CALIBRATION, and one that
 /// comes while calibrations contradict each other, LOST and CALIBRATION_DOUBTED.
 ///
+/// What is attached to the camera is kept over restarts in the file `vo.state_file`.
+///
 /// Memory:
-///   Decoder, judge and estimator are allocated when a calibration begins to hold; nothing after
-///   it.
+///   Decoder, judge, estimator and the text of the file are allocated when a calibration begins to
+///   hold; nothing after it.
 /// Errors:
 ///   take_*() return null when the message was taken, else the reason as a string literal.
 #pragma once
@@ -19,6 +21,7 @@
 #include "core/stage_probe.hpp"
 #include "modules/camera/calibration_keeper_wire.hpp"
 #include "modules/camera/image_wire.hpp"
+#include "modules/vo/attached_file.hpp"
 #include "modules/vo/image_judge_wire.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/vo_wire.hpp"
@@ -31,6 +34,10 @@ class VoNode {
   ///               the node
   VoNode(const VoConfig& config, std::uint64_t seed, StageProbe* probe,
          const IntegrityConfig& integrity = {});
+  /// Keeps what is attached to the camera in the file `vo.state_file`, if there is one.
+  ~VoNode();
+  VoNode(const VoNode&) = delete;
+  VoNode& operator=(const VoNode&) = delete;
 
   /// Names this run of the process in the motions.
   void set_session(std::int64_t session) { session_ = session; }
@@ -55,6 +62,8 @@ class VoNode {
 
  private:
   void build();
+  void restore_attached();
+  void keep_attached();
   const char* publish_without_calibration(const ImageFrame& frame);
 
   VoConfig config_;
@@ -66,6 +75,8 @@ class VoNode {
   std::optional<ImageDecoder> decoder_;
   std::optional<ImageJudge> judge_;
   std::optional<VisualOdometry> estimator_;
+  std::optional<AttachedFile> attached_file_;
+  std::int64_t kept_us_ = 0;  // capture time at which the file was compared last
   vo_motion_t motion_{};
   bool fresh_ = false;
 };

@@ -2,12 +2,15 @@
 // with images.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <random>
 
 #include "modules/ground/ground_node.hpp"
 #include "modules/vo/vo_node.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tests/wire/sample_output.hpp"
 
 namespace plumb {
@@ -76,6 +79,27 @@ TEST_F(VoNodeTest, SaysThatThePrincipalPointIsOff) {
   node_->configure_camera(off);
   EXPECT_STREQ(node_->concern(),
                "the calibration's principal point is more than 10 % of the picture off its middle");
+}
+
+TEST_F(VoNodeTest, KnowsAfterARestartWhatIsAttachedToTheCamera) {
+  const test::TempFolder folder;
+  VoConfig config;
+  config.state_file = (folder / "attached.toml").string();
+  vo::AttachedRegions known(kModel.width_px, kModel.height_px);
+  std::vector<float> evidence(known.evidence().size());
+  std::fill_n(evidence.begin(), evidence.size() / 2, 20.0F);
+  known.restore(evidence);
+  AttachedFile(config.state_file, kModel.width_px, kModel.height_px).save(known);
+
+  node_ = std::make_unique<VoNode>(config, 1, &probe_);
+  node_->configure_camera(kModel);
+  EXPECT_EQ("", take(image_bytes(1)));
+  EXPECT_EQ("", take(image_bytes(2)));
+  EXPECT_NEAR(node_->motion()->attached_share, 0.5, 0.02);
+  EXPECT_STREQ(node_->concern(), "much of the picture shows what is attached to the camera");
+  std::filesystem::remove(config.state_file);
+  node_.reset();
+  EXPECT_TRUE(std::filesystem::exists(config.state_file)) << "it is written in the end";
 }
 
 TEST_F(VoNodeTest, RefusesWrongImagesAndGoesOn) {

@@ -1,9 +1,10 @@
-// A fuzz target for the state file of the mount. What is accepted must be a reference that the
-// check can go on with.
+// A fuzz target for the state files of the mount and of what is attached to the camera. What is
+// accepted must be something that the estimator can go on with.
 #include <cmath>
 
 #include "modules/mount/mount_config.hpp"
 #include "modules/mount/mount_source.hpp"
+#include "modules/vo/attached_file.hpp"
 #include "platform/config.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 
@@ -18,6 +19,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     plumb::fuzz::require(reference.std_rad.minCoeff() >= 0.0);
     plumb::MountCheck check{plumb::MountConfig{}};
     check.restore(reference);
+  } catch (const plumb::ConfigError&) {
+  }
+  try {
+    plumb::vo::AttachedRegions regions(64, 40);
+    plumb::load_attached_regions(kFile.path(), 64, 40, &regions);
+    regions.end_image(1.0);
+    plumb::fuzz::require(regions.share() >= 0.0 && regions.share() <= 1.0);
   } catch (const plumb::ConfigError&) {
   }
   return 0;
