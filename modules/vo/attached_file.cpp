@@ -104,7 +104,7 @@ bool AttachedFile::save(const vo::AttachedRegions& regions) {
   const std::size_t columns = num_columns(width_px_);
   const std::span<const float> evidence = regions.evidence();
   for (std::size_t row = 0; row < num_rows(height_px_); ++row) {
-    std::array<char, 16> name{};
+    std::array<char, 48> name{};
     std::snprintf(name.data(), name.size(), "row_%03zu = \"", row);
     next_text_ += name.data();
     for (const float cell : evidence.subspan(row * columns, columns)) next_text_ += digit_of(cell);
