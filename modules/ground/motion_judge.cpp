@@ -8,8 +8,10 @@
 namespace plumb {
 namespace {
 
-// A speed that is known less well than that is no judge of the other cues.
+// A speed that is known less well than the first of these says nothing about a single height, and
+// one that is known less well than the second one nothing about scatter either.
 constexpr double kLargestJudgeStd = 0.08;
+constexpr double kLargestSmoothStd = 0.25;
 // Standard deviations of the road's speed by which a single height may differ from it, and the same
 // for a cue that has kept to its own deviation for some time: then the pitch behind the road's
 // speed is the one that may be wrong.
@@ -38,7 +40,7 @@ constexpr double kMostGap = 0.04;
 bool MotionJudge::judge(double dt_s, Observations* observations) {
   const CueReport& motion = (*observations)[kCueMotion].report;
   const double std = std::sqrt(motion.height_var) / motion.height;
-  const bool judges = motion.status == CueStatus::kUsed && std <= kLargestJudgeStd;
+  const bool judges = motion.status == CueStatus::kUsed && std <= kLargestSmoothStd;
   bool any_new = false;
   for (std::size_t i = 0; i < kNumCues; ++i) {
     if (!kCueTable[i].measures_height || i == kCueMotion) continue;
@@ -70,8 +72,9 @@ void MotionJudge::judge_cue(const CueReport& motion, double dt_s, JudgedCue* cue
   const bool steady = cue->judged_s > kSteadyAfter_s && cue->scatter < kSteadyScatter;
   const double most_stds = steady ? kMostStdsOfSteady : kMostStds;
   const double motion_var = motion.height_var / square(motion.height);
-  if (cue->refused || square(apart) > square(most_stds) * motion_var)
-    report->status = CueStatus::kFailed;
+  const bool is_far =
+      motion_var <= square(kLargestJudgeStd) && square(apart) > square(most_stds) * motion_var;
+  if (cue->refused || is_far) report->status = CueStatus::kFailed;
 }
 
 void MotionJudge::follow_filter(const Observation& motion, double ln_height) {
