@@ -41,7 +41,7 @@ TEST(MotionJudge, RefusesASingleHeightThatContradictsTheRoadsSpeed) {
   EXPECT_EQ(observations[kCueMotion].report.status, CueStatus::kUsed);
 }
 
-TEST(MotionJudge, ASpeedThatIsPoorlyKnownRefusesNothing) {
+TEST(MotionJudge, ASpeedThatIsPoorlyKnownRefusesNothingForItsDistance) {
   MotionJudge judge;
   for (int i = 0; i < 100; ++i) {
     Observations observations = heights(0.09, 1.4, 1.05);
@@ -60,6 +60,18 @@ TEST(MotionJudge, RefusesACueWhoseHeightsScatterAndSaysSoOnce) {
   }
   EXPECT_EQ(num_said, 1);
   EXPECT_EQ(dense_after(&judge, 0.96), CueStatus::kFailed) << "one good height is not enough";
+}
+
+TEST(MotionJudge, ARoadThatIsNewlySeenShowsScatterAlready) {
+  MotionJudge judge;
+  bool is_refused = false;
+  for (int i = 0; i < 15; ++i) {
+    Observations observations = heights(0.2, i % 2 == 0 ? 0.9 : 1.02, 1.04);
+    (void)judge.judge(kInterval_s, &observations);
+    is_refused = observations[kCueDense].report.status == CueStatus::kFailed;
+    EXPECT_EQ(observations[kCuePoints].report.status, CueStatus::kUsed);
+  }
+  EXPECT_TRUE(is_refused);
 }
 
 TEST(MotionJudge, TakesACueBackThatKeepsToItsDeviation) {
