@@ -22,6 +22,7 @@ constexpr double kSteadyAfter_s = 0.5;
 // A cue is refused from the first of these ratios on, and until it is below the second one. Of good
 // cues it is 1 to 5.
 constexpr double kMostScatter = 8.0;
+constexpr double kMostScatterAtFirst = 16.0;  // while the road is newly seen
 constexpr double kSteadyScatter = 4.0;
 constexpr double kScatterTime_s = 1.5;
 constexpr double kFirstScatterTime_s = 0.4;
@@ -68,12 +69,13 @@ void MotionJudge::judge_cue(const CueReport& motion, double dt_s, JudgedCue* cue
   const double var = report->height_var / square(report->height);
   cue->mean += share * off;
   cue->scatter += share * (std::min(kMostOfOne, (1.0 - share) * square(off) / var) - cue->scatter);
-  cue->refused = cue->scatter > (cue->refused ? kSteadyScatter : kMostScatter);
+  const double motion_var = motion.height_var / square(motion.height);
+  const bool is_known = motion_var <= square(kLargestJudgeStd);
+  const double most_scatter = is_known ? kMostScatter : kMostScatterAtFirst;
+  cue->refused = cue->scatter > (cue->refused ? kSteadyScatter : most_scatter);
   const bool steady = cue->judged_s > kSteadyAfter_s && cue->scatter < kSteadyScatter;
   const double most_stds = steady ? kMostStdsOfSteady : kMostStds;
-  const double motion_var = motion.height_var / square(motion.height);
-  const bool is_far =
-      motion_var <= square(kLargestJudgeStd) && square(apart) > square(most_stds) * motion_var;
+  const bool is_far = is_known && square(apart) > square(most_stds) * motion_var;
   if (cue->refused || is_far) report->status = CueStatus::kFailed;
 }
 

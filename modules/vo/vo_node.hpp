@@ -21,7 +21,7 @@
 #include "core/stage_probe.hpp"
 #include "modules/camera/calibration_keeper_wire.hpp"
 #include "modules/camera/image_wire.hpp"
-#include "modules/vo/attached_file.hpp"
+#include "modules/vo/attached_source.hpp"
 #include "modules/vo/image_judge_wire.hpp"
 #include "modules/vo/vo.hpp"
 #include "modules/vo/vo_wire.hpp"

@@ -4,7 +4,7 @@
 
 #include "modules/mount/mount_config.hpp"
 #include "modules/mount/mount_source.hpp"
-#include "modules/vo/attached_file.hpp"
+#include "modules/vo/attached_source.hpp"
 #include "platform/config.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 

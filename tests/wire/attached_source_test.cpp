@@ -1,5 +1,5 @@
 // Tests that what is attached to the camera survives a restart, and that a wrong file is refused.
-#include "modules/vo/attached_file.hpp"
+#include "modules/vo/attached_source.hpp"
 
 #include <gtest/gtest.h>
 

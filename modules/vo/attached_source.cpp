@@ -1,4 +1,4 @@
-#include "modules/vo/attached_file.hpp"
+#include "modules/vo/attached_source.hpp"
 
 #include <algorithm>
 #include <array>
