@@ -65,7 +65,7 @@ TEST(MotionJudge, RefusesACueWhoseHeightsScatterAndSaysSoOnce) {
 TEST(MotionJudge, ARoadThatIsNewlySeenShowsScatterAlready) {
   MotionJudge judge;
   bool is_refused = false;
-  for (int i = 0; i < 15; ++i) {
+  for (int i = 0; i < 30; ++i) {
     Observations observations = heights(0.2, i % 2 == 0 ? 0.9 : 1.02, 1.04);
     (void)judge.judge(kInterval_s, &observations);
     is_refused = observations[kCueDense].report.status == CueStatus::kFailed;
