@@ -318,12 +318,13 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
                 filter.ahead());
 }
 
-/// A start that the next images do not confirm was none.
+/// A start that the next images do not confirm was none. One cue that contradicts is enough: what is
+/// attached to a truck ahead can agree on a plane for an image.
 void GroundEstimator::Impl::try_start(bool used, bool rejected, double dt_s) {
   trial.take(used, dt_s);
   if (!trial.open) return;
   trial.open = trial.num_used < kStartProven;
-  if (trial.open && ((rejected && !used) || trial.num_missed >= kStartFailed)) filter.reset();
+  if (trial.open && (rejected || trial.num_missed >= kStartFailed)) filter.reset();
 }
 
 void GroundEstimator::Impl::report(const CueFrame& frame, const FramePrior& prior,
