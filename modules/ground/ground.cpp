@@ -318,8 +318,8 @@ void GroundEstimator::Impl::fuse_height(const CueFrame& frame, const FramePrior&
                 filter.ahead());
 }
 
-/// A start that the next images do not confirm was none. One cue that contradicts is enough: what is
-/// attached to a truck ahead can agree on a plane for an image.
+/// A start that the next images do not confirm was none. One cue that contradicts is enough: what
+/// is attached to a truck ahead can agree on a plane for an image.
 void GroundEstimator::Impl::try_start(bool used, bool rejected, double dt_s) {
   trial.take(used, dt_s);
   if (!trial.open) return;
