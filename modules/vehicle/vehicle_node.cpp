@@ -3,6 +3,13 @@
 #include <cmath>
 
 namespace plumb {
+namespace {
+
+// Each image states the camera's clock anew. A step back by less than that is a correction, and
+// one by more another time base.
+constexpr std::int64_t kLargestCorrection_us = 1'000'000;
+
+}  // namespace
 
 VehicleNode::VehicleNode(const VehicleSpeedConfig& config, const DbcSignal& signal,
                          std::int64_t session)
@@ -25,7 +32,11 @@ const vehicle_speed_t* VehicleNode::take_frame(const CanFrame& frame,
     return nullptr;
   }
   if (!has_clock()) return nullptr;
-  message_.utime = received_mono_us - delay_us_ - *mono_minus_camera_us_;
+  const std::int64_t utime = received_mono_us - delay_us_ - *mono_minus_camera_us_;
+  const std::int64_t back_us = last_utime_.value_or(utime - 1) - utime;
+  if (back_us >= 0 && back_us < kLargestCorrection_us) return nullptr;
+  last_utime_ = utime;
+  message_.utime = utime;
   message_.speed_m_s = *speed_m_s;
   return &message_;
 }

@@ -55,6 +55,18 @@ TEST_F(VehicleNodeTest, KeepsItsClockWhenAMotionStatesNone) {
   EXPECT_EQ(node.take_frame(frame(0x123, 1), 5'020'000)->utime, 1'000);
 }
 
+TEST_F(VehicleNodeTest, TimesIncreaseAlthoughTheClockIsCorrected) {
+  VehicleNode node(config_, signal_, 0);
+  node.take_ego(ego(1'000'000, 5'000'000));
+  ASSERT_NE(node.take_frame(frame(0x123, 1), 5'100'000), nullptr);
+  EXPECT_EQ(node.take_frame(frame(0x123, 1), 5'100'000), nullptr) << "two frames read at once";
+  node.take_ego(ego(1'100'000, 5'115'000));  // 15 ms later than thought
+  EXPECT_EQ(node.take_frame(frame(0x123, 1), 5'110'000), nullptr);
+  EXPECT_EQ(node.take_frame(frame(0x123, 1), 5'120'000)->utime, 1'085'000);
+  node.take_ego(ego(0, 5'200'000));  // the camera's clock begins anew
+  EXPECT_EQ(node.take_frame(frame(0x123, 1), 5'220'000)->utime, 0);
+}
+
 TEST_F(VehicleNodeTest, CountsFramesWithoutASpeedAndIgnoresOthers) {
   VehicleNode node(config_, signal_, 0);
   node.take_ego(ego(1'000, 5'000'000));
