@@ -19,10 +19,10 @@ constexpr double kMostStds = 2.0;
 constexpr double kMostStdsOfSteady = 4.0;
 constexpr double kSteadyAfter_s = 0.5;
 
-// A cue is refused from the first of these ratios on, and until it is below the second one. Of good
-// cues it is 1 to 5.
+// A cue is refused from the first of these ratios on, or from the second one while the road is
+// newly seen, and until it is below the third one. Of good cues it is 1 to 5.
 constexpr double kMostScatter = 8.0;
-constexpr double kMostScatterAtFirst = 16.0;  // while the road is newly seen
+constexpr double kMostScatterAtFirst = 16.0;
 constexpr double kSteadyScatter = 4.0;
 constexpr double kScatterTime_s = 1.5;
 constexpr double kFirstScatterTime_s = 0.4;
