@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "modules/integrity/stamp_difference.hpp"
+
 namespace plumb {
 namespace {
 
@@ -33,7 +35,7 @@ const vehicle_speed_t* VehicleNode::take_frame(const CanFrame& frame,
   }
   if (!has_clock()) return nullptr;
   const std::int64_t utime = received_mono_us - delay_us_ - *mono_minus_camera_us_;
-  const std::int64_t back_us = last_utime_.value_or(utime - 1) - utime;
+  const std::int64_t back_us = last_utime_ ? stamp_difference(*last_utime_, utime) : -1;
   if (back_us >= 0 && back_us < kLargestCorrection_us) return nullptr;
   last_utime_ = utime;
   message_.utime = utime;

@@ -1,10 +1,10 @@
 #include "modules/vo/vo_node.hpp"
 
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
 #include "core/principal_point.hpp"
+#include "modules/integrity/stamp_difference.hpp"
 #include "platform/config.hpp"
 #include "platform/log.hpp"
 
@@ -62,7 +62,9 @@ void VoNode::restore_attached() {
 
 /// Writes what is attached to the camera, now and then.
 void VoNode::keep_attached() {
-  if (!attached_file_ || std::abs(motion_.utime - kept_us_) < kKeepPeriod_us) return;
+  if (!attached_file_) return;
+  const std::int64_t passed_us = stamp_difference(motion_.utime, kept_us_);
+  if (passed_us >= 0 && passed_us < kKeepPeriod_us) return;  // a clock may go back
   if (kept_us_ != 0) {
     if (const int error = attached_file_->error())
       log_warning("cannot write %s: %s", attached_file_->path().c_str(), std::strerror(error));
