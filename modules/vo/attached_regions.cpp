@@ -21,10 +21,9 @@ constexpr double kStayedVote = 0.5;
 // The share of a vote that the neighbours of a cell get: what is attached is seldom small.
 constexpr float kNeighbourShare = 0.25F;
 
-// Sums from which on a cell is attached, and until it is no longer. Its limits.
+// Sums from which on a cell is attached, and until it is no longer, and the least sum.
 constexpr float kAttached = 12.0F;
 constexpr float kNoLonger = 6.0F;
-constexpr float kMostSumOfCell = 24.0F;
 constexpr float kLeastSumOfCell = -8.0F;
 // A cell that is not searched is tried again after a minute at the most.
 constexpr double kForget_per_s = 0.3;
@@ -44,8 +43,7 @@ double vote_of(const TrackMotion& motion) {
 }  // namespace
 
 AttachedRegions::AttachedRegions(int width_px, int height_px)
-    : num_columns_((width_px + kCellPx - 1) / kCellPx),
-      num_rows_((height_px + kCellPx - 1) / kCellPx) {
+    : num_columns_(num_cells(width_px)), num_rows_(num_cells(height_px)) {
   const auto count = static_cast<std::size_t>(num_columns_ * num_rows_);
   evidence_.resize(count);
   is_attached_.resize(count);
@@ -72,7 +70,7 @@ void AttachedRegions::add(const TrackMotion& motion) {
 void AttachedRegions::vote(int column, int row, float evidence) {
   if (column < 0 || column >= num_columns_ || row < 0 || row >= num_rows_) return;
   float& sum = evidence_[static_cast<std::size_t>(row * num_columns_ + column)];
-  sum = std::clamp(sum + evidence, kLeastSumOfCell, kMostSumOfCell);
+  sum = std::clamp(sum + evidence, kLeastSumOfCell, kMostEvidence);
 }
 
 void AttachedRegions::end_image(double dt_s) {
@@ -88,7 +86,7 @@ void AttachedRegions::end_image(double dt_s) {
 void AttachedRegions::restore(std::span<const float> evidence) {
   num_attached_ = 0;
   for (std::size_t i = 0; i < evidence_.size(); ++i) {
-    evidence_[i] = std::clamp(evidence[i], kLeastSumOfCell, kMostSumOfCell);
+    evidence_[i] = std::clamp(evidence[i], kLeastSumOfCell, kMostEvidence);
     is_attached_[i] = evidence_[i] > kAttached ? 1 : 0;
     num_attached_ += is_attached_[i];
   }

@@ -35,6 +35,12 @@ struct TrackMotion {
 class AttachedRegions {
  public:
   static constexpr int kCellPx = 16;
+  static constexpr float kMostEvidence = 24.0F;  ///< that a cell can have
+
+  /// Number of cells along a side of an image.
+  [[nodiscard]] static constexpr int num_cells(int side_px) {
+    return (side_px + kCellPx - 1) / kCellPx;
+  }
 
   AttachedRegions(int width_px, int height_px);
 
@@ -60,7 +66,6 @@ class AttachedRegions {
   [[nodiscard]] std::span<const float> evidence() const { return evidence_; }
   /// Begins with what was known before. @pre evidence.size() is that of evidence()
   void restore(std::span<const float> evidence);
-  [[nodiscard]] int num_columns() const { return num_columns_; }
   /// Share of the image that is attached.
   [[nodiscard]] double share() const;
 

@@ -17,25 +17,22 @@ constexpr int kVersion = 1;
 constexpr int kMostPx = 16'384;
 constexpr std::size_t kMostHeadBytes = 512;
 // One digit is so much evidence; 9 is the most that a cell can have.
-constexpr double kEvidencePerDigit = 24.0 / 9.0;
+constexpr double kEvidencePerDigit = double{vo::AttachedRegions::kMostEvidence} / 9.0;
 constexpr char kNothing = '.';
 
-std::size_t num_rows(int height_px) {
-  return static_cast<std::size_t>((height_px + vo::AttachedRegions::kCellPx - 1) /
-                                  vo::AttachedRegions::kCellPx);
+std::size_t cells_along(int side_px) {
+  return static_cast<std::size_t>(vo::AttachedRegions::num_cells(side_px));
 }
-
-std::size_t num_columns(int width_px) { return num_rows(width_px); }
 
 std::size_t most_bytes(int width_px, int height_px) {
   constexpr std::size_t kAroundRow = 24;  // 'row_0000 = "..."' and the end of the line
-  return kMostHeadBytes + num_rows(height_px) * (num_columns(width_px) + kAroundRow);
+  return kMostHeadBytes + cells_along(height_px) * (cells_along(width_px) + kAroundRow);
 }
 
-std::string row_key(std::size_t row) {
-  std::array<char, 48> key{};
-  std::snprintf(key.data(), key.size(), "attached_regions.row_%03zu", row);
-  return key.data();
+std::array<char, 32> row_name(std::size_t row) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "row_%03zu", row);
+  return name;
 }
 
 char digit_of(float evidence) {
@@ -72,9 +69,9 @@ void load_attached_regions(const std::string& path, int width_px, int height_px,
                       std::to_string(file_height_px) + " pixels");
   }
   std::vector<float> evidence(regions->evidence().size());
-  const std::size_t columns = num_columns(width_px);
-  for (std::size_t row = 0; row < num_rows(height_px); ++row) {
-    const std::string key = row_key(row);
+  const std::size_t columns = cells_along(width_px);
+  for (std::size_t row = 0; row < cells_along(height_px); ++row) {
+    const std::string key = std::string("attached_regions.") + row_name(row).data();
     std::string digits;
     field(key.c_str(), digits, "");
     read_row(path + ": " + key, digits, columns, &evidence[row * columns]);
@@ -101,16 +98,16 @@ bool AttachedFile::save(const vo::AttachedRegions& regions) {
       "width_px = %d\nheight_px = %d\n",
       vo::AttachedRegions::kCellPx, kSchema, kVersion, width_px_, height_px_);
   next_text_ = head.data();
-  const std::size_t columns = num_columns(width_px_);
+  const std::size_t columns = cells_along(width_px_);
   const std::span<const float> evidence = regions.evidence();
-  for (std::size_t row = 0; row < num_rows(height_px_); ++row) {
-    std::array<char, 48> name{};
-    std::snprintf(name.data(), name.size(), "row_%03zu = \"", row);
-    next_text_ += name.data();
+  for (std::size_t row = 0; row < cells_along(height_px_); ++row) {
+    next_text_ += row_name(row).data();
+    next_text_ += " = \"";
     for (const float cell : evidence.subspan(row * columns, columns)) next_text_ += digit_of(cell);
     next_text_ += "\"\n";
   }
-  if (next_text_ == text_ || !thread_.replace(next_text_)) return false;
+  const bool is_on_disk = next_text_ == text_ && thread_.error() == 0;
+  if (is_on_disk || !thread_.replace(next_text_)) return false;
   text_.swap(next_text_);
   return true;
 }

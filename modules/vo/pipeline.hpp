@@ -41,6 +41,7 @@ class Pipeline {
   Pipeline(const VoConfig& config, const CameraModel& camera, std::uint64_t seed);
   /// Processes one image. The result is valid until the next call.
   const VoOutput& update(const VoInput& input, StageProbe& probe);
+  /// What is known of the regions that are attached to the camera.
   [[nodiscard]] AttachedRegions& attached() { return map_.attached; }
 
  private:

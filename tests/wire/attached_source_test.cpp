@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "platform/config.hpp"
@@ -56,6 +60,21 @@ TEST_F(AttachedFileTest, WhatIsKnownSurvivesARestart) {
   EXPECT_EQ(again.share(), known_.share());
   for (std::size_t i = 0; i < again.evidence().size(); ++i)
     EXPECT_NEAR(again.evidence()[i], std::max(0.0F, known_.evidence()[i]), 1.5F) << i;
+}
+
+TEST_F(AttachedFileTest, TriesAgainWhenTheFileCouldNotBeWritten) {
+  const std::filesystem::path folder = folder_ / "later";
+  AttachedFile file((folder / "attached.toml").string(), kWidthPx, kHeightPx);
+  EXPECT_TRUE(file.save(known_));
+  for (int i = 0; file.error() == 0 && i < 1'000; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_EQ(file.error(), ENOENT);
+  std::filesystem::create_directory(folder);
+  EXPECT_TRUE(file.save(known_)) << "although it says the same";
+  for (int i = 0; file.error() != 0 && i < 1'000; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(file.error(), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "attached.toml"));
 }
 
 TEST_F(AttachedFileTest, RefusesAFileOfAnotherImageOrWithADamagedRow) {
